@@ -4,9 +4,9 @@
 
 usage: make_gallery.py SINEW RUNS [NAME ...]     SINEW: the program build/bin/sinew; RUNS: a folder that keeps
                                                  the runs, so that a second call only draws; NAME: only these
-                                                 pictures. Needs Debian's python3-pil
+                                                 pictures. Needs Debian's python3-pil, paraview and chromium
 """
-import shutil
+import os
 import subprocess
 import sys
 import tempfile
@@ -16,7 +16,7 @@ from PIL import Image
 
 DATA = Path(__file__).resolve().parent
 CONFIGS = DATA.parent / "configs"
-LARGE = 250_000  # bytes, beyond which a picture is made smaller
+SCREENSHOT = DATA.parent / "tests/campaigns/screenshot.sh"
 # run: scene, and what of it is set otherwise
 RUNS = {
     "box": ("box_bend", []),
@@ -59,18 +59,44 @@ def draw(sinew, runs, name):
         subprocess.run([sinew, "render", "--no-movie", "--width", "960", "--height", "540", "-o", folder,
                         *options, simulated(sinew, runs, run)],
                        check=True, stdout=subprocess.DEVNULL)
-        target = DATA / f"pictures/{name}.png"
-        shutil.copy(Path(folder) / f"{taken}.png", target)
-    if target.stat().st_size > LARGE:
-        # without dither spheres in 256 colors look the same, at a third of the size
-        few = Image.open(target).quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-        few.save(target, optimize=True)
+        keep(Path(folder) / f"{taken}.png", name)
+
+
+def keep(picture, name, box=None):
+    """All colors, in the smallest file; `box`: the part to keep, pixels."""
+    Image.open(picture).convert("RGB").crop(box).save(DATA / f"pictures/{name}.png", optimize=True)
+
+
+def draw_window(sinew, runs):
+    """ParaView's window on the state that a run leaves."""
+    with tempfile.TemporaryDirectory() as folder:
+        picture = Path(folder) / "window.png"
+        subprocess.run([SCREENSHOT, picture, sinew, "view", simulated(sinew, runs, "box")], check=True,
+                       env={**os.environ, "HOME": folder})
+        keep(picture, "paraview")
+
+
+def draw_report(sinew, runs):
+    """The first screen of the report."""
+    run = simulated(sinew, runs, "box")
+    subprocess.run([sinew, "measure", "--quiet", run], check=True, stdout=subprocess.DEVNULL)
+    with tempfile.TemporaryDirectory() as folder:
+        picture = Path(folder) / "page.png"
+        subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
+                        "--no-first-run", f"--user-data-dir={folder}/profile", "--window-size=1280,900",
+                        "--hide-scrollbars", "--virtual-time-budget=8000", f"--screenshot={picture}",
+                        (run / "report.html").as_uri()], check=True, stderr=subprocess.DEVNULL)
+        keep(picture, "report")
 
 
 def main():
     sinew, runs = (Path(place).resolve() for place in sys.argv[1:3])
-    for name in sys.argv[3:] or PICTURES:
-        draw(sinew, runs, name)
+    screens = {"paraview": draw_window, "report": draw_report}
+    for name in sys.argv[3:] or [*PICTURES, *screens]:
+        if name in screens:
+            screens[name](sinew, runs)
+        else:
+            draw(sinew, runs, name)
 
 
 if __name__ == "__main__":

@@ -15,5 +15,5 @@ The run is in $PWD/out/box_bend:
   report.html                  what happened, in numbers and charts
   pictures/contact_sheet.png   the body at rest, half way, bent, and back
   pictures/movie.mp4           the whole motion
-  view.py                      opens everything in ParaView: paraview out/box_bend/view.py
+  view.pvsm                    everything in ParaView, if it is installed: build/bin/sinew view out/box_bend
 END

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-view: starts ParaView with sinew's own scripts. Those in a run's folder are for other
-// machines: nothing in a folder from elsewhere is executed.
+// sinew-view: starts ParaView on a state written here, or on sinew's own scripts. States and
+// scripts in a run's folder are for other machines: nothing in a folder from elsewhere is executed.
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
+#include <sinew/core/file.h>
+#include <sinew/core/text.h>
+#include <sinew/io/paraview/view_state.h>
 #include <sinew/render/display.h>
 #include <sinew/run/run_folder.h>
 #include "command/command.h"
@@ -22,9 +28,8 @@ using namespace sinew;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string folder, picture, array, cut;
-  std::optional<std::string> forces;
-  std::optional<double> time;
+  std::string folder, picture;
+  ViewOptions view;
   std::vector<int> size;
   bool live = false;
 };
@@ -32,12 +37,13 @@ struct Options {
 void declare(OptionList& list, Options& options) {
   list.add("DIR", options.folder, "Folder of the run").required();
   list.add_flag("--live", options.live, "Follow a run in progress");
-  list.add("--array", options.array, "Array that colors the particles, by default displacement");
-  list.add("--cut", options.cut, "Axis across which the body is cut open: x, y, z or none");
-  list.add("--forces", options.forces,
+  list.add("--array", options.view.array,
+           "Array that colors the particles, by default strain_eq, or displacement without it");
+  list.add("--cut", options.view.cut, "Axis across which the body is cut open: x, y, z or none");
+  list.add("--forces", options.view.forces,
            "Arrows of a force: force_pair if none is named, force_bone, force, ...")
       .expected(0, 1);
-  list.add("--time", options.time, "Time of the picture, s");
+  list.add("--time", options.view.time, "Time to show, s; by default when the array is largest");
   list.add("--size", options.size, "Size of the picture, pixels").expected(2).type_name("W H");
   list.add("--picture", options.picture, "Write a picture to this file instead of opening a window")
       .type_name("FILE.png");
@@ -49,12 +55,13 @@ std::vector<std::string> words_of(const Options& options) {
   const auto add = [&](const char* name, const std::string& value) {
     if (!value.empty()) words.insert(words.end(), {name, value});
   };
-  add("--array", options.array);
-  add("--cut", options.cut);
-  if (options.forces) words.push_back("--forces");
-  if (options.forces && !options.forces->empty()) words.push_back(*options.forces);
+  const ViewOptions& view = options.view;
+  add("--array", view.array);
+  add("--cut", view.cut);
+  if (view.forces) words.push_back("--forces");
+  if (view.forces && !view.forces->empty()) words.push_back(*view.forces);
   add("--picture", options.picture.empty() ? "" : fs::absolute(options.picture).string());
-  if (options.time) add("--time", std::to_string(*options.time));
+  if (view.time) add("--time", number_text(*view.time));
   if (!options.size.empty()) {
     words.push_back("--size");
     for (const int pixels : options.size) words.push_back(std::to_string(pixels));
@@ -65,11 +72,7 @@ std::vector<std::string> words_of(const Options& options) {
 /// A text that a shell would split into these words.
 std::string quoted(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) {
-    text += text.empty() ? "'" : " '";
-    for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-    text += '\'';
-  }
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_quoted(word);
   return text;
 }
 
@@ -98,28 +101,29 @@ std::vector<fs::path> private_places() {
   return places;
 }
 
-/// Debian's ParaView has its Python in a separate package; others include it.
-void find_python(const fs::path& program) {
+/// Whether pvbatch and live.py can run. Debian's ParaView has its Python in a separate package;
+/// others include it.
+bool find_python(const fs::path& program) {
   std::error_code none;
   const std::string given = from_environment("PYTHONPATH");
   std::istringstream folders(given);
   for (std::string folder; std::getline(folders, folder, ':');)
-    if (fs::exists(fs::path(folder) / "paraview", none)) return;
+    if (fs::exists(fs::path(folder) / "paraview", none)) return true;
   if (program.parent_path() != "/usr/bin" ||
       fs::exists("/usr/lib/python3/dist-packages/paraview", none))
-    return;
+    return true;
   for (const fs::path& place : private_places())
     if (fs::exists(place / "paraview", none)) {
       setenv("PYTHONPATH", (given.empty() ? place.string() : place.string() + ':' + given).c_str(),
              1);
-      return;
+      return true;
     }
-  throw Error(
-      Exit::not_written,
-      "ParaView's Python is not installed; install it with: apt-get install python3-paraview, "
-      "or beside VTK's: apt-get download python3-paraview && dpkg -x python3-paraview_*.deb "
-      "~/.local/share/sinew/paraview-python");
+  return false;
 }
+
+constexpr const char* how_to_get_python =
+    "apt-get install python3-paraview, or beside VTK's: apt-get download python3-paraview && "
+    "dpkg -x python3-paraview_*.deb ~/.local/share/sinew/paraview-python";
 
 void check_screen() {
   if (from_environment("DISPLAY").empty() && from_environment("WAYLAND_DISPLAY").empty())
@@ -149,26 +153,93 @@ Exit become(const fs::path& program, std::vector<std::string> words) {
                   "install ParaView anew");
 }
 
-Exit view(const Options& options) {
-  const RunFolder folder{options.folder};
+void check(const Options& options, const RunFolder& folder) {
   if (!folder.used())
     throw bad_input(Place{options.folder}, "is not the folder of a run",
                     "give the folder that sinew run or sinew simulate writes");
-  const fs::path script = own_script(options.live ? "live.py" : "view.py");
-  setenv("SINEW_RUN", fs::absolute(folder.path).c_str(), 1);
+  static constexpr std::array<std::string_view, 4> cuts = {"x", "y", "z", "none"};
+  const std::string& cut = options.view.cut;
+  if (std::find(cuts.begin(), cuts.end(), cut) == cuts.end())
+    throw bad_input("--cut " + cut + " is no axis", suggestion(cut, cuts));
+}
+
+/// A folder of its own below the system's for temporary files, for a run that cannot be written to.
+fs::path temporary_folder() {
+  std::string folder = (fs::temp_directory_path() / "sinew-view-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr)
+    throw Error(Exit::not_written, folder + ": " + std::generic_category().message(errno) +
+                                       "; set TMPDIR to a folder that can be written to");
+  return folder;
+}
+
+/// Writes the state that is opened: in place of that of the run, unless ParaView has saved another
+/// one there or the folder cannot be written to.
+fs::path write_state(const RunFolder& folder, const ViewOptions& options, const Common& common) {
+  const std::string text = view_state(shown_run(folder.path, options), options);
+  std::string why;
+  try {
+    if (is_foreign_state(folder.view()))
+      why = folder.view().string() + " was saved by ParaView (paraview --state=FILE opens it)";
+    else
+      return write_file(folder.view(), text), folder.view();
+  } catch (const Error& error) {
+    if (error.exit() != Exit::not_written) throw;
+    why = error.what();
+  }
+  const fs::path file = temporary_folder() / "view.pvsm";
+  write_file(file, text);
+  say(common, why + "; showing " + file.string());
+  return file;
+}
+
+/// By a state, which ParaView opens without its Python.
+Exit open_window(const RunFolder& folder, const Options& options, const Common& common) {
+  const fs::path program = program_named("paraview");
+  check_screen();
+  const fs::path state = write_state(folder, options.view, common);
+  return become(program, {program.string(), "--state=" + fs::absolute(state).string()});
+}
+
+Exit follow(const Options& options) {
   const bool window = options.picture.empty();
   const fs::path program = program_named(window ? "paraview" : "pvbatch");
-  find_python(program);
+  if (!find_python(program))
+    throw Error(Exit::not_written,
+                std::string("a live view needs ParaView's Python; install it with: ") +
+                    how_to_get_python + "; or look at the frames so far: sinew view " +
+                    shell_quoted(options.folder));
+  const fs::path script = own_script("live.py");
   std::vector<std::string> words = words_of(options);
-  if (window) {
-    check_screen();
-    setenv("SINEW_VIEW", quoted(words).c_str(), 1);
-    return become(program, {program.string(), script.string()});
+  if (!window) {
+    ensure_display();
+    unsetenv("SINEW_VIEW");
+    words.insert(words.begin(), {program.string(), script.string()});
+    return become(program, words);
   }
+  check_screen();
+  setenv("SINEW_VIEW", quoted(words).c_str(), 1);
+  return become(program, {program.string(), script.string()});
+}
+
+Exit draw(const Options& options) {
+  const fs::path program = program_named("pvbatch");
+  if (!find_python(program))
+    throw Error(Exit::not_written,
+                "ParaView draws pictures with its Python only; draw with: sinew render " +
+                    shell_quoted(options.folder) + ", or install it with: " + how_to_get_python);
   ensure_display();
   unsetenv("SINEW_VIEW");
-  words.insert(words.begin(), {program.string(), script.string()});
+  std::vector<std::string> words = words_of(options);
+  words.insert(words.begin(), {program.string(), own_script("view.py").string()});
   return become(program, words);
+}
+
+Exit view(const Options& options, const Common& common) {
+  const RunFolder folder{options.folder};
+  check(options, folder);
+  setenv("SINEW_RUN", fs::absolute(folder.path).c_str(), 1);
+  if (options.live) return follow(options);
+  return options.picture.empty() ? open_window(folder, options, common) : draw(options);
 }
 
 }  // namespace
@@ -183,5 +254,5 @@ int main(int argc, char** argv) {
   about.takes_scene = false;
   return run_command(
       argc, argv, about, [&](OptionList& list) { declare(list, options); },
-      [&](const Common&) { return view(options); });
+      [&](const Common& common) { return view(options, common); });
 }

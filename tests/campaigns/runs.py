@@ -82,7 +82,8 @@ class Run:
 
 def files_of(out):
     """All that a run tells, but when, where and how it was done (body.vtu: how long filling took)."""
-    beside = {"run.json", "log.txt", ".lock", "view.py", "live.py", "body.vtu", "checkpoint/a.bin", "checkpoint/b.bin"}
+    beside = {"run.json", "log.txt", ".lock", "view.py", "live.py", "view.pvsm", "body.vtu", "checkpoint/a.bin",
+              "checkpoint/b.bin"}
     files = {str(file.relative_to(out)): file.read_bytes() for file in out.rglob("*") if file.is_file()}
     if sums := files.get("checksums.sfv"):
         files["checksums.sfv"] = b"\n".join(line for line in sums.split(b"\n") if not line.startswith(b"body.vtu "))

@@ -8,8 +8,9 @@
 #include <map>
 #include <thread>
 
+#include <sinew/io/paraview/view_script.h>
+#include <sinew/io/paraview/view_state.h>
 #include <sinew/io/series.h>
-#include <sinew/io/view_script.h>
 #include "synthetic_run.h"
 
 namespace {
@@ -37,6 +38,7 @@ void write(const std::filesystem::path& folder, Encoding encoding, int count, do
     std::this_thread::sleep_for(std::chrono::duration<double>(pause));
   }
   for (Series* series : {&particles, &surface, &bones, &frames}) series->close();
+  write_view_state(folder, folder / "view.pvsm");
 }
 
 }  // namespace

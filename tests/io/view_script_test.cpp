@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/view_script.h>
+#include <sinew/io/paraview/view_script.h>
 
 #include "scratch.h"
 

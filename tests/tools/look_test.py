@@ -274,37 +274,6 @@ class ViewPreset(unittest.TestCase):
         done = self.render(env=without("DISPLAY", PATH="/nonexistent"))
         self.assert_one_line(done, 4, "apt-get install xvfb")
 
-    def test_view_says_what_to_install(self):
-        done = sinew("view", self.run_folder, env=without(PATH="/nonexistent"))
-        self.assert_one_line(done, 4, "apt-get install paraview")
-
-    def test_view_needs_a_screen_and_a_run(self):
-        there = {"PYTHONPATH": str(MODULES / "usr/lib/python3/dist-packages")}
-        done = sinew("view", self.run_folder, env=without("DISPLAY", "WAYLAND_DISPLAY", **there))
-        self.assert_one_line(done, 4, "--picture FILE.png")
-        self.assert_one_line(sinew("view", self.pictures), 2, "is not the folder of a run")
-
-    def test_view_draws_without_a_screen(self):
-        picture = self.pictures / "it's drawn.png"
-        done = sinew("view", self.run_folder, "--picture", picture, "--size", "400", "300", "--forces",
-                     "force_bone", "--cut", "x",
-                     env=without("DISPLAY", PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages")))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(size_of(picture), (400, 300))
-
-    def test_view_runs_nothing_that_lies_in_the_folder(self):
-        foreign = self.pictures / "from elsewhere"
-        shutil.copytree(self.run_folder, foreign)
-        ran = self.pictures / "it ran"
-        for name in ("view.py", "live.py", "paraview.py", "camera.py"):
-            (foreign / name).write_text(f"open({str(ran)!r}, 'w')")
-        picture = self.pictures / "drawn.png"
-        done = sinew("view", foreign, "--picture", picture, "--size", "200", "150", "--forces", cwd=foreign,
-                     env=without(PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages")))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(size_of(picture), (200, 150))
-        self.assertFalse(ran.exists())
-
     def test_view_and_live_explain_what_is_missing(self):
         done = sinew("view", self.run_folder, "--picture", self.pictures / "a.png", "--array", "none",
                      env=without(PYTHONPATH=str(MODULES / "usr/lib/python3/dist-packages")))

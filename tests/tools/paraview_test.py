@@ -3,6 +3,7 @@
 import functools
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -165,20 +166,48 @@ class Picking(unittest.TestCase):
             self.assertEqual(ids, [i for i, other in enumerate(bones) if other == bone])
 
 
-@functools.cache
-def picture(*arguments):
-    """Width, height and rows of pixels of what view.py draws."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "picture.png")
-        subprocess.run(["pvbatch", os.path.join(RUN, "view.py"), "--picture", path,
-                        "--size", "800", "400", *arguments], check=True, cwd="/")
-        reader = vtkPNGReader()
-        reader.SetFileName(path)
-        reader.Update()
+def pixels_of(path):
+    """Width, height and rows of pixels."""
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
     image = reader.GetOutput()
     width, height, _ = image.GetDimensions()
     pixels = values(image.GetPointData().GetScalars())
     return width, height, [pixels[y * width:(y + 1) * width] for y in range(height)]
+
+
+@functools.cache
+def picture(*arguments):
+    """What view.py draws."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "picture.png")
+        subprocess.run(["pvbatch", os.path.join(RUN, "view.py"), "--picture", path,
+                        "--size", "800", "400", *arguments], check=True, cwd="/")
+        return pixels_of(path)
+
+
+LOAD_STATE = """
+import sys
+from paraview.simple import *
+state, folder, picture = sys.argv[1:]
+LoadState(state, data_directory=folder) if folder != "-" else LoadState(state)
+SaveScreenshot(picture, GetLayout(), ImageResolution=[800, 400], SeparatorWidth=0)
+print(*sorted(source.FileName for source in GetSources().values() if hasattr(source, "FileName")), sep="\\n")
+print(GetAnimationScene().AnimationTime)
+"""
+
+
+def loaded(state, folder="-"):
+    """What the state draws, the files it opens, and the time."""
+    with tempfile.TemporaryDirectory() as work:
+        script, path = os.path.join(work, "load.py"), os.path.join(work, "picture.png")
+        with open(script, "w", encoding="utf-8") as text:
+            text.write(LOAD_STATE)
+        done = subprocess.run(["pvbatch", script, state, folder, path], check=True, cwd="/", capture_output=True,
+                              text=True)
+        *files, time = done.stdout.splitlines()
+        return pixels_of(path), files, float(time), done.stderr
 
 
 def drawn_share(rows, left, right):
@@ -211,7 +240,9 @@ def dark(r, g, b):
 
 class View(unittest.TestCase):
     def test_view_draws_the_body_left_and_the_bones_right(self):
-        width, height, rows = picture()
+        self.assert_shows_body_and_bones(*picture())
+
+    def assert_shows_body_and_bones(self, width, height, rows):
         self.assertEqual((width, height), (800, 400))
         left, right = slice(0, width // 2), slice(width // 2, width)
         for half in (left, right):
@@ -228,6 +259,27 @@ class View(unittest.TestCase):
             for row in (rows[0], rows[-1]):
                 self.assertLess(drawn_share([row], left.start, left.stop), 0.02)
                 self.assertLess(drawn_share([row], right.start, right.stop), 0.02)
+
+    def test_the_state_shows_the_same_without_a_script(self):
+        drawn, files, time, said = loaded(os.path.join(RUN, "view.pvsm"))
+        self.assert_shows_body_and_bones(*drawn)
+        self.assertNotIn("ERR", said)
+        self.assertIn(os.path.join(RUN, "particles.pvd"), files)
+        self.assertIn(time, [row for row, _ in rows_of("particles")])
+
+    def test_paraview_finds_the_files_of_a_state_whose_folder_was_moved(self):
+        with tempfile.TemporaryDirectory() as work:
+            away = os.path.join(work, "Läufe, viele")
+            shutil.copytree(RUN, away)
+            state = os.path.join(away, "view.pvsm")
+            with open(state, encoding="utf-8") as file:
+                text = file.read().replace(RUN, "/where/it/was")
+            with open(state, "w", encoding="utf-8") as file:
+                file.write(text)
+            drawn, files, _, said = loaded(state, away)
+            self.assertNotIn("ERR", said)
+            self.assertEqual({os.path.dirname(name) for name in files}, {away})
+            self.assert_shows_body_and_bones(*drawn)
 
     def test_view_draws_the_moment_asked_for(self):
         first, last = (picture("--time", str(time))[2]

@@ -112,7 +112,8 @@ std::vector<WrittenArray> table_of_requested(const char* series) {
       {series, point, "hencky_strain", "1", tensor, real, plain,
        "Hencky strain ln(F^T F) / 2, on request"},
       {series, point, "strain_eq", "1", one, real, plain,
-       "equivalent strain sqrt(2/3 dev H : dev H), H the Hencky strain, on request"},
+       "equivalent strain sqrt(2/3 dev H : dev H), H the Hencky strain, on request and up to "
+       "200,000 particles"},
       {series, point, "stress", "Pa", tensor, real, plain,
        "virial stress -(1/2V) sum f r with volumes and muscles, tension positive, on request"},
       {series, point, "von_mises", "Pa", one, real, plain,

@@ -21,6 +21,9 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
 /// 'text' in quotes on one line, unprintable characters replaced, cut after 40 characters.
 std::string shown(std::string_view text);
 
+/// The text as a shell reads it as one word: in quotes where it needs them.
+std::string shell_quoted(std::string_view text);
+
 /// ASCII capital letters become lower case.
 std::string lower(std::string_view text);
 

@@ -13,6 +13,7 @@
 #include <sinew/core/text.h>
 #include <sinew/io/encode.h>
 #include <sinew/io/vtu.h>
+#include <sinew/io/xml.h>
 
 namespace sinew {
 namespace {
@@ -126,28 +127,6 @@ std::string active_arrays(const std::vector<Element>& elements) {
   return scalars + vectors;
 }
 
-std::string attribute(const std::string& name, const std::string& value) {
-  std::string text = ' ' + name;
-  text += "=\"";
-  for (const char c : value) switch (c) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '>':
-        text += "&gt;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      default:
-        text += c;
-    }
-  return text += '"';
-}
-
 /// Text in memory, written as a NewFile is.
 class TextInMemory {
  public:
@@ -251,19 +230,19 @@ class VtuText {
 
   std::string attributes_of(const Element& element, bool in_field, const ValueRange& range) {
     const auto components = static_cast<std::size_t>(element.components);
-    std::string text = attribute("type", std::string(element.values.type));
-    text += attribute("Name", element.name);
-    if (components > 1) text += attribute("NumberOfComponents", std::to_string(components));
+    std::string text = xml_attribute("type", std::string(element.values.type));
+    text += xml_attribute("Name", element.name);
+    if (components > 1) text += xml_attribute("NumberOfComponents", std::to_string(components));
     for (std::size_t k = 0; element.row && k < element.row->components.size(); ++k)
-      text +=
-          attribute("ComponentName" + std::to_string(k), std::string(element.row->components[k]));
+      text += xml_attribute("ComponentName" + std::to_string(k),
+                            std::string(element.row->components[k]));
     if (in_field)
-      text += attribute("NumberOfTuples", std::to_string(element.values.count / components));
+      text += xml_attribute("NumberOfTuples", std::to_string(element.values.count / components));
     if (range.low <= range.high)
-      text += attribute("RangeMin", number_text(range.low)) +
-              attribute("RangeMax", number_text(range.high));
-    if (format_.encoding != Encoding::raw) return text += attribute("format", "binary");
-    text += attribute("format", "appended") + attribute("offset", std::to_string(offset_));
+      text += xml_attribute("RangeMin", number_text(range.low)) +
+              xml_attribute("RangeMax", number_text(range.high));
+    if (format_.encoding != Encoding::raw) return text += xml_attribute("format", "binary");
+    text += xml_attribute("format", "appended") + xml_attribute("offset", std::to_string(offset_));
     offset_ += sizeof(std::uint64_t) + element.values.bytes();
     return text;
   }

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 #include <sinew/core/error.h>
 
@@ -132,6 +134,22 @@ std::string_view XmlElement::attribute(std::string_view name) const {
 
 std::vector<XmlElement> xml_elements(std::string_view xml, std::string_view last) {
   return Elements(xml, last).read();
+}
+
+std::string xml_attribute(std::string_view name, std::string_view value) {
+  static constexpr std::pair<char, std::string_view> replaced[] = {
+      {'&', "&amp;"},  {'<', "&lt;"},  {'>', "&gt;"},  {'"', "&quot;"},
+      {'\n', "&#10;"}, {'\t', "&#9;"}, {'\r', "&#13;"}};
+  std::string text = ' ' + std::string(name) + "=\"";
+  for (const char c : value) {
+    const auto* found = std::find_if(std::begin(replaced), std::end(replaced),
+                                     [&](const auto& entry) { return entry.first == c; });
+    if (found == std::end(replaced))
+      text += c;
+    else
+      text += found->second;
+  }
+  return text += '"';
 }
 
 }  // namespace sinew

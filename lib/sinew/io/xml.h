@@ -27,4 +27,7 @@ struct XmlElement {
 /// with the path `last` is not parsed: all of it becomes its text. Throws bad input.
 std::vector<XmlElement> xml_elements(std::string_view xml, std::string_view last = {});
 
+/// ` name="value"`, with what XML does not take as it stands replaced.
+std::string xml_attribute(std::string_view name, std::string_view value);
+
 }  // namespace sinew

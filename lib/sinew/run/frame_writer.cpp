@@ -107,7 +107,7 @@ struct ReactionColumns {
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                          const Body& body, const Triangles& surface,
                          std::vector<Triangles> obstacles, std::span<const double> kept,
-                         SurfaceLook look, std::vector<Probe> probes)
+                         SurfaceLook look, std::vector<Probe> probes, StrainInFrames strain)
     : folder_(folder),
       body_(body),
       selection_{written_particles(output, body.rest, body.material.pair.r),
@@ -134,7 +134,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
   if (!probes.empty()) probe_table_.emplace(folder / "probes.csv", std::move(probes), kept.size());
   begin_skinned(output, kept);
   if (output.export_surface) begin_export(kept.size(), std::move(look));
-  begin_arrays(output, kept);
+  begin_arrays(output, kept, strain);
   begin_checksums();
 }
 
@@ -187,8 +187,11 @@ void FrameWriter::begin_export(std::size_t kept, SurfaceLook look) {
   export_ = std::make_unique<PointCache>(folder_ / "surface.pc2", skin_.rest.size(), kept);
 }
 
-void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const double> kept) {
-  arrays_ = additional_arrays(output, body_);
+void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const double> kept,
+                               StrainInFrames strain) {
+  const std::string words = strain == StrainInFrames::by_default ? words_for_arrays(output, body_)
+                                                                 : words_asked_for(output, body_);
+  arrays_ = requested_arrays(words);
   if (arrays_.empty() && !output.bonds && !probe_table_) return;
   RestInput input = measured_body(body_.material, body_.skeleton, body_.factors);
   input.law.volume_stiffness_of = body_.local.volume;
@@ -202,7 +205,7 @@ void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const dou
     bond_series_.emplace(folder_, format_of(output, "bonds", body_.material.pair.r),
                          each(every_, kept));
   try {
-    arrays_ = defined_arrays(*measured_, measured_at_rest(), words_for_arrays(output, body_));
+    arrays_ = defined_arrays(*measured_, measured_at_rest(), words);
   } catch (const Error& error) {
     throw error.with_context({"output.arrays"});
   }

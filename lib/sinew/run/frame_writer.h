@@ -38,6 +38,10 @@
 
 namespace sinew {
 
+/// Whether frames contain strain_eq without being asked to: several writers of a frame cannot find
+/// it.
+enum class StrainInFrames { by_default, on_request };
+
 class FrameWriter {
  public:
   /// `surface`: the body's skin at rest; `obstacles`: those of its world, each in its own frame;
@@ -47,7 +51,7 @@ class FrameWriter {
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
               const Triangles& surface, std::vector<Triangles> obstacles,
               std::span<const double> kept = {}, SurfaceLook look = {},
-              std::vector<Probe> probes = {});
+              std::vector<Probe> probes = {}, StrainInFrames strain = StrainInFrames::by_default);
   /// The same of a scene that begins.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
               const ReadyScene& ready);
@@ -102,7 +106,8 @@ class FrameWriter {
 
   void begin_skinned(const OutputSettings& output, std::span<const double> kept);
   void begin_export(std::size_t kept, SurfaceLook look);
-  void begin_arrays(const OutputSettings& output, std::span<const double> kept);
+  void begin_arrays(const OutputSettings& output, std::span<const double> kept,
+                    StrainInFrames strain);
   FrameState measured_at_rest() const;
   Moved take(Simulation& simulation, double time);
   void write(Moved& frame);

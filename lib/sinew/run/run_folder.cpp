@@ -26,7 +26,8 @@ namespace {
 /// Names that a run writes in its folder; in DIR/NAME/ only files numbered as a run numbers them.
 bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
-      "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|checksums\\.sfv|report\\.html|"
+      "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|view\\.pvsm|checksums\\.sfv|"
+      "report\\.html|"
       "metrics(_bones)?\\.(csv|json)|(bones|probes|sections|supports)\\.csv|surface\\.(obj|pc2|glb)"
       "|blowup\\.vtu|"
       "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values)\\.pvd)("

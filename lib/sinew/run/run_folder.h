@@ -26,6 +26,8 @@ struct RunFolder {
   std::filesystem::path checkpoints() const { return path / "checkpoint"; }
   /// What an engine in another program is told and says.
   std::filesystem::path engine() const { return path / ".engine"; }
+  /// A state of ParaView that shows the run.
+  std::filesystem::path view() const { return path / "view.pvsm"; }
   std::filesystem::path pictures() const { return path / "pictures"; }
 
   /// Whether a run has begun here.

@@ -8,7 +8,8 @@
 #include <sinew/core/file.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/io/view_script.h>
+#include <sinew/io/paraview/view_script.h>
+#include <sinew/io/paraview/view_state.h>
 #include <sinew/run/frame_writer.h>
 #include <sinew/run/run_checkpoints.h>
 #include <sinew/run/run_log.h>
@@ -133,7 +134,8 @@ class Run {
     }
     writer_.emplace(folder_.path, scene_.output, simulation_->body(), ready.surface.triangles,
                     std::move(obstacles), schedule_.times_there(), std::move(ready.look),
-                    std::move(probes));
+                    std::move(probes),
+                    ranks_write() ? StrainInFrames::on_request : StrainInFrames::by_default);
     if (options_.engine)
       elsewhere_.emplace(*options_.engine, folder_.engine(), *simulation_, motion,
                          stepping_of(scene_.solver, steps.step), schedule_.plan, steps.per_frame,
@@ -142,11 +144,14 @@ class Run {
     give_back_freed_memory();  // much more than stepping needs
   }
 
+  bool ranks_write() const {
+    return options_.engine && options_.engine->ranks > 1 && !options_.engine->gathers &&
+           scene_.output.encoding != Encoding::raw;
+  }
+
   /// Several ranks write the particles of frames themselves.
   std::optional<EnginePieces> pieces() const {
-    if (options_.engine->ranks == 1 || options_.engine->gathers || !writer_->can_be_begun() ||
-        scene_.output.encoding == Encoding::raw)
-      return std::nullopt;
+    if (!ranks_write() || !writer_->can_be_begun()) return std::nullopt;
     const OutputSettings& output = scene_.output;
     const auto arrays = frame_arrays(output.only);
     return EnginePieces{std::filesystem::absolute(folder_.path).string(),
@@ -231,6 +236,8 @@ class Run {
     const bool moved = elsewhere_ && elsewhere_->moment().steps == simulation_->steps();
     writer_->add(*simulation_, time, moved && elsewhere_->moment().in_frame);
     log_.frame(frame, time);
+    if (frame == 0)  // a run may end at any moment: the state is there from the first frame on
+      writer_->then([this] { return [this] { write_state(); }; });
     if (const Relaxation* relaxation = simulation_->relaxation())
       log_.load_step(frame, relaxation->last());
   }
@@ -264,7 +271,13 @@ class Run {
       log_.describe(*elsewhere_);
     }
     writer_->close();
+    if (writer_->written() > 0) write_state();
     log_.spend("writing", watch.lap());
+  }
+
+  /// Unless the user has saved another one in its place.
+  void write_state() const {
+    if (!is_foreign_state(folder_.view())) write_view_state(folder_.path, folder_.view());
   }
 
   const Settings& scene_;

@@ -15,6 +15,9 @@ namespace sinew {
 
 namespace {
 
+/// What strain is found from takes 500 bytes per particle: larger bodies have it on request.
+constexpr std::size_t max_particles_with_strain = 200'000;
+
 /// 1 for particles whose neighbors all have all of theirs.
 std::vector<std::uint8_t> deep_inside(const Points& rest, double radius) {
   const NeighborLists near = neighbors_within(rest, rest_neighbor_range(radius));
@@ -53,12 +56,17 @@ std::vector<std::int32_t> written_particles(const OutputSettings& output, const 
   return ids;
 }
 
-std::string words_for_arrays(const OutputSettings& output, const Body& body) {
+std::string words_asked_for(const OutputSettings& output, const Body& body) {
   std::string words = output.arrays;
   const bool stress_is_lost = bonds_change(body.material) || has_muscles(body) ||
                               output.region.has_value() || output.inside_every > 1;
   if (stress_is_lost && output.only.empty()) words += " von_mises";
   return words;
+}
+
+std::string words_for_arrays(const OutputSettings& output, const Body& body) {
+  const bool with_strain = output.only.empty() && body.rest.size() <= max_particles_with_strain;
+  return words_asked_for(output, body) + (with_strain ? " strain_eq" : "");
 }
 
 std::vector<std::string_view> additional_arrays(const OutputSettings& output, const Body& body) {

@@ -20,12 +20,15 @@ namespace sinew {
 std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest,
                                             double radius);
 
-/// The arrays of particles beside those that every scene has: the ones of output.arrays and, where
-/// positions alone do not give it later, von_mises: for bonds that break or creep, muscles and a
-/// part of the body. output.only leaves it out.
+/// The arrays of particles beside those that every scene has: the ones of output.arrays; of bodies
+/// of up to 200,000 particles strain_eq; and, where positions alone do not give it later,
+/// von_mises: for bonds that break or creep, muscles and a part of the body. output.only leaves
+/// both out.
 std::vector<std::string_view> additional_arrays(const OutputSettings& output, const Body& body);
 /// The words that name them, for requested_arrays().
 std::string words_for_arrays(const OutputSettings& output, const Body& body);
+/// The same without strain_eq, unless output.arrays names it.
+std::string words_asked_for(const OutputSettings& output, const Body& body);
 
 /// The share of all frames' numbers per particle that is written, by output.every, output.region
 /// and output.inside_every.

@@ -133,6 +133,7 @@ def time_note(source):
 def scene_of(folder, follower, options):
     scene = Scene(folder)
     newest = follower.path("particles", follower.number)
+    options.array = options.array or default_array(newest)
     scene.array = array_or_stop(newest, options.array)
     follower.grow_limits()
     scene.limits = options.range or follower.limits
@@ -211,16 +212,28 @@ def main():
         end_batch(wrong)
 
 
+def moved(thing, module):
+    """A function or class of this script with the names of the module in place of its own."""
+    if isinstance(thing, types.FunctionType):
+        made = types.FunctionType(thing.__code__, module.__dict__, thing.__name__, thing.__defaults__, thing.__closure__)
+        made.__kwdefaults__ = thing.__kwdefaults__
+        return made
+    if isinstance(thing, type) and thing.__module__ == __name__:
+        parts = {name: moved(part, module) for name, part in thing.__dict__.items()
+                 if name not in ("__dict__", "__weakref__")}
+        return type(thing.__name__, thing.__bases__, parts)
+    return thing
+
+
 def main_in_a_module():
-    """Runs this file again as the module sinew_live: ParaView runs the script of a source in the main
+    """Moves what this script defines into the module sinew_live: ParaView runs the script of a source in the main
     module, and imports numpy's max, dot and others there."""
-    path = os.path.join(run_folder(), SCRIPT)
     module = sys.modules["sinew_live"] = types.ModuleType("sinew_live")
-    with open(path, encoding="utf-8") as text:
-        exec(compile(text.read(), path, "exec"), module.__dict__)
+    for name, thing in list(globals().items()):
+        if not name.startswith("__"):
+            own = isinstance(thing, (types.FunctionType, type)) and thing.__module__ == __name__
+            setattr(module, name, moved(thing, module) if own else thing)
+    module.main()
 
 
-if __name__ == "sinew_live":
-    main()
-else:
-    main_in_a_module()
+main_in_a_module()

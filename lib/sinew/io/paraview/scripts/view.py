@@ -12,6 +12,9 @@ options stand in the variable SINEW_VIEW: SINEW_VIEW="--array velocity --forces"
 """
 import xml.etree.ElementTree as ET
 
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
 from options import *
 
 SCRIPT = "view.py"
@@ -38,6 +41,25 @@ def ranges_over_time(frames, name):
 
 def limits_of(ranges):
     return min(low for low, _ in ranges), max(high for _, high in ranges)
+
+
+def color_ranges(frames, name, most=12):
+    """(low, high, time) without the hundredth of the values farthest out at each end, spread over the run."""
+    found = []
+    for time, path in frames[::max(1, math.ceil(len(frames) / most))] + [frames[-1]]:
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(path)
+        reader.Update()
+        values = vtk_to_numpy(reader.GetOutput().GetPointData().GetArray(name)).astype(float)
+        values = numpy.linalg.norm(values, axis=1) if values.ndim > 1 else values
+        low, high = numpy.nanpercentile(values, [1, 99])
+        found.append((low, high, time))
+    return found
+
+
+def color_limits(ranges):
+    low, high = limits_of([(low, high) for low, high, _ in ranges])
+    return (0 if 0 <= low < 0.25 * high else low), high
 
 
 def corners_over_time(source, times, most=16):
@@ -72,9 +94,10 @@ def time_note(source):
 def scene_of(folder, frames, sources, options):
     """The scene of a run, and the time at which the array is largest."""
     scene = Scene(folder)
+    options.array = options.array or default_array(frames[0][1])
     scene.array = array_or_stop(frames[0][1], options.array)
-    ranges = ranges_over_time(frames, options.array)
-    scene.limits = options.range or limits_of(ranges)
+    ranges = color_ranges(frames, options.array)
+    scene.limits = options.range or color_limits(ranges)
     scene.strongest = limits_of(ranges_over_time(frames, options.forces or "force_pair"))[1]
     if "supports" in sources:
         files = [path for _, path in frame_files(folder, "supports")]
@@ -84,7 +107,7 @@ def scene_of(folder, frames, sources, options):
     _, scene.size = middle_and_size(scene.corners)
     if "supports" in sources:
         scene.corners += tips_over_time(sources["supports"], times, scene)
-    return scene, max(zip(ranges, times), key=lambda entry: entry[0][1])[1]
+    return scene, max(ranges, key=lambda entry: entry[1])[2]
 
 
 def main():

@@ -84,7 +84,7 @@ def show_particles(source, view, options, array, limits):
     shown.UseScaleFunction = 0
     ColorBy(shown, ("POINTS", options.array) + (("Magnitude",) if is_vector(array) else ()))
     bar = GetScalarBar(color_table(options, limits), view)
-    bar.Title = options.array if array["unit"] == "1" else f"{options.array} ({array['unit']})"
+    bar.Title = f"{plain_name(options.array)} ({array['unit']})"
     bar.ComponentTitle = ""
     bar.Orientation = "Horizontal"
     bar.WindowLocation = "Any Location"
@@ -96,6 +96,10 @@ def show_particles(source, view, options, array, limits):
     bar.AutomaticLabelFormat = 0
     bar.LabelFormat = bar.RangeLabelFormat = "%.3g"
     shown.SetScalarBarVisibility(view, True)
+
+
+def plain_name(array):
+    return "equivalent strain" if array == "strain_eq" else array.replace("_", " ")
 
 
 def letters(options, share):

@@ -107,5 +107,10 @@ def array_or_stop(path, name):
     return array
 
 
+def default_array(path):
+    """What deformation looks like, or else motion."""
+    return "strain_eq" if described_array(path, "strain_eq") else "displacement"
+
+
 def is_vector(array):
     return int(array.get("NumberOfComponents", 1)) > 1

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/paraview/shown_run.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/arrays.h>
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+#include <sinew/io/series.h>
+#include <sinew/io/vtu.h>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t max_samples = 12;
+constexpr double outliers = 0.01;      ///< share of the values beyond each end of the color scale
+constexpr double least_strain = 1e-9;  ///< rounding: the body is at rest
+
+/// Frames spread over the run, the first and the last included.
+std::vector<std::size_t> samples(std::size_t frames) {
+  const std::size_t count = std::min(frames, max_samples);
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count; ++k)
+    chosen.push_back(count == 1 ? 0 : k * (frames - 1) / (count - 1));
+  return chosen;
+}
+
+void add_corners(ShownRun& run, const Points& points) {
+  if (points.empty()) return;
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& point : points) low = low.cwiseMin(point), high = high.cwiseMax(point);
+  for (int corner = 0; corner < 8; ++corner)
+    run.corners.emplace_back(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
+                             corner & 4 ? high.z() : low.z());
+}
+
+/// Values of a scalar, lengths of vectors and tensors; without those that are not defined.
+std::vector<double> magnitudes(const Column& column) {
+  return std::visit(
+      [&](const auto& values) {
+        std::vector<double> found;
+        const auto width = static_cast<std::size_t>(column.components);
+        for (std::size_t i = 0; i + width <= values.size(); i += width) {
+          double sum = 0;
+          for (std::size_t k = 0; k < width; ++k)
+            sum += static_cast<double>(values[i + k]) * static_cast<double>(values[i + k]);
+          const double value = width == 1 ? static_cast<double>(values[i]) : std::sqrt(sum);
+          if (std::isfinite(value)) found.push_back(value);
+        }
+        return found;
+      },
+      column.values);
+}
+
+double at_share(std::vector<double>& values, double share) {
+  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
+                   values.end());
+  return values[place];
+}
+
+[[noreturn]] void refuse_array(const Dataset& frame, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const Column& column : frame.point_columns) names.push_back(column.name);
+  throw bad_input("the particles have no array " + shown(name), suggestion(name, names));
+}
+
+bool has_array(const Dataset& frame, const std::string& name) {
+  return find(frame.point_columns, name) != nullptr;
+}
+
+/// What is shown of the first frame, whose scene may have left arrays out.
+void choose_arrays(ShownRun& run, const fs::path& file, const ViewOptions& options) {
+  const Dataset first = read_vtu(file);
+  run.array = options.array;
+  for (const char* name : {"strain_eq", "displacement", "velocity", "bone", "id"})
+    if (run.array.empty() && has_array(first, name)) run.array = name;
+  run.forces = options.forces.value_or("");
+  if (run.forces.empty()) run.forces = "force_pair";
+  const bool asked = options.forces && !options.forces->empty();
+  if (!has_array(first, run.forces)) {
+    if (asked) refuse_array(first, run.forces);
+    run.forces.clear();
+  }
+  if (!has_array(first, run.array)) refuse_array(first, run.array);
+  run.can_be_cut = has_array(first, "displacement");
+  run.components = find(first.point_columns, run.array)->components;
+  const WrittenArray* row = find_written("particles", ArrayPlace::point, run.array);
+  run.unit = row == nullptr ? "" : row->unit;
+}
+
+/// The numbers of the color scale's ends, which do not hang on single particles.
+class ColorRange {
+ public:
+  void add(const Column& column, double time, double& moment) {
+    std::vector<double> values = magnitudes(column);
+    if (values.empty()) return;
+    const double high = at_share(values, 1 - outliers);
+    if (high > high_) moment = time;
+    high_ = std::max(high_, high);
+    low_ = std::min(low_, at_share(values, outliers));
+  }
+
+  /// Numbers of an array of which all are alike are not known to grow.
+  void put(ShownRun& run) const {
+    run.grows = !(high_ - low_ > least_strain * std::max(1.0, std::abs(high_)));
+    if (run.grows) return;
+    run.range = {low_ >= 0 && low_ < 0.25 * high_ ? 0 : low_, high_};
+  }
+
+ private:
+  double low_ = INFINITY, high_ = -INFINITY;
+};
+
+void read_particles(ShownRun& run, const std::vector<PvdRow>& rows) {
+  ColorRange range;
+  for (const std::size_t k : samples(rows.size())) {
+    const Dataset frame =
+        read_vtu(run.folder / rows[k].file, {run.array.c_str(), run.forces.c_str()});
+    const Column* colors = find(frame.point_columns, run.array);
+    const Column* forces = find(frame.point_columns, run.forces);
+    run.particles = frame.points.size();
+    add_corners(run, frame.points);
+    if (colors != nullptr) range.add(*colors, rows[k].time, run.moment);
+    if (forces == nullptr) continue;
+    for (const double force : magnitudes(*forces)) run.strongest = std::max(run.strongest, force);
+  }
+  range.put(run);
+}
+
+void read_supports(ShownRun& run) {
+  const std::vector<PvdRow> rows = read_pvd(run.folder / "supports.pvd");
+  std::vector<Dataset> frames;
+  for (const std::size_t k : samples(rows.size())) {
+    frames.push_back(read_vtu(run.folder / rows[k].file, {"force"}));
+    for (const Vec3& force : vectors(frames.back().point_columns, "force"))
+      run.hardest = std::max(run.hardest, force.norm());
+  }
+  if (!(run.hardest > 0)) return;
+  const double scale = arrow_share * run.size() / run.hardest;
+  for (const Dataset& frame : frames) {
+    Points tips = vectors(frame.point_columns, "force");
+    for (std::size_t i = 0; i < tips.size(); ++i) tips[i] = frame.points[i] + scale * tips[i];
+    add_corners(run, tips);
+  }
+}
+
+/// Nearest time of a frame.
+double frame_at(const std::vector<double>& times, double time) {
+  return *std::min_element(times.begin(), times.end(), [&](double a, double b) {
+    return std::abs(a - time) < std::abs(b - time);
+  });
+}
+
+}  // namespace
+
+bool ShownRun::has(const std::string& name) const {
+  return std::find(series.begin(), series.end(), name) != series.end();
+}
+
+double ShownRun::size() const {
+  Vec3 first = corners.at(0), last = corners[0];
+  for (const Vec3& corner : corners) first = first.cwiseMin(corner), last = last.cwiseMax(corner);
+  return (last - first).maxCoeff();
+}
+
+ShownRun shown_run(const fs::path& folder, const ViewOptions& options) {
+  ShownRun run;
+  run.folder = fs::absolute(folder).lexically_normal();
+  const std::vector<PvdRow> rows = read_pvd(run.folder / "particles.pvd");
+  if (rows.empty())
+    throw bad_input(Place{folder.string()}, "the run has no frames yet", "wait for its first one");
+  for (const PvdRow& row : rows) run.times.push_back(row.time);
+  for (const char* name : {"particles", "surface", "bones", "frames", "obstacles", "supports"})
+    if (fs::exists(run.folder / (std::string(name) + ".pvd"))) run.series.emplace_back(name);
+  const Dataset rest = read_vtu(run.folder / "body.vtu", {"radius"});
+  add_corners(run, rest.points);
+  run.rest = {run.corners.at(0), run.corners[7]};
+  run.radius = numbers(rest.point_columns, "radius").at(0);
+  choose_arrays(run, run.folder / rows[0].file, options);
+  read_particles(run, rows);
+  if (run.has("supports")) read_supports(run);
+  if (run.has("bones"))
+    run.has_bones =
+        read_vtu(run.folder / read_pvd(run.folder / "bones.pvd").at(0).file).cells() > 0;
+  run.moment = frame_at(run.times, options.time.value_or(run.moment));
+  return run;
+}
+
+}  // namespace sinew

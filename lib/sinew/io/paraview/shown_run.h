@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What must be known of a run before it is shown: its series, the room it needs, the range of
+// colors, the largest forces, and the moment at which its body is most deformed.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sinew/core/vector.h>
+
+namespace sinew {
+
+/// Length of the longest arrow in the size of the body.
+constexpr double arrow_share = 0.2;
+
+/// What a user may choose.
+struct ViewOptions {
+  std::string array = {};  ///< that colors the particles; "": strain_eq, or else displacement
+  std::string cut = "y";   ///< axis across which the body is cut open: x, y, z or none
+  std::optional<std::string> forces = {};  ///< as arrows; "": force_pair
+  std::optional<double> time = {};         ///< s; none: when the array is largest
+};
+
+struct ShownRun {
+  std::filesystem::path folder;     ///< absolute
+  std::vector<std::string> series;  ///< those it has, of those that are shown
+  std::vector<double> times;        ///< of its frames, s
+  std::array<Vec3, 2> rest;         ///< corners of the box around the body at rest, m
+  Points corners;                   ///< of boxes around all that is shown, over time, m
+  std::size_t particles = 0;
+  double radius = 0;        ///< of the particles, m
+  bool can_be_cut = false;  ///< the frames tell where particles were at rest
+  bool has_bones = false;
+  std::string array, unit;            ///< that colors the particles
+  int components = 1;                 ///< of it
+  std::array<double, 2> range{0, 1};  ///< of it, without the hundredth farthest out
+  bool grows = false;    ///< the range is not known yet: there is only the body at rest
+  double moment = 0;     ///< to begin with, s
+  std::string forces;    ///< shown as arrows; "" where the frames lack them
+  double strongest = 0;  ///< the largest of these, N
+  double hardest = 0;    ///< the largest force of a support or a load, N
+
+  bool has(const std::string& name) const;
+  /// Longest side of the box around all corners, m.
+  double size() const;
+};
+
+/// Reads at most 12 frames, spread over the run. Throws bad input where the folder has no frame,
+/// and where the particles have no array of that name.
+ShownRun shown_run(const std::filesystem::path& folder, const ViewOptions& options);
+
+}  // namespace sinew

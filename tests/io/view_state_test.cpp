@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/paraview/view_state.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <sinew/io/series.h>
+#include <sinew/io/single_files.h>
+#include <sinew/io/xml.h>
+#include "expect_error.h"
+#include "scratch.h"
+#include "synthetic_run.h"
+
+namespace sinew::view_state_test {
+
+/// A run of so many frames, whose second bone turns by 90 degrees.
+class ViewState : public Scratch {
+ protected:
+  void write_run(int count = 5) {
+    const SyntheticRun run;
+    write_body(folder / "body.vtu", run.body());
+    const auto format = [](const char* series) {
+      return VtuFormat{Encoding::zlib, false, series, SyntheticRun::radius};
+    };
+    Series particles(folder, format("particles")), surface(folder, format("surface"));
+    Series bones(folder, format("bones")), frames(folder, format("frames"));
+    for (int k = 0; k < count; ++k) {
+      const Moment moment{SyntheticRun::half_turn * k / std::max(1, count - 1), k};
+      particles.add(run.particles(moment));
+      surface.add(run.surface(moment));
+      bones.add(run.bones(moment));
+      frames.add(run.frames(moment));
+    }
+    for (Series* series : {&particles, &surface, &bones, &frames}) series->close();
+  }
+
+  std::string state(const ViewOptions& options = {}) const {
+    return view_state(shown_run(folder, options), options);
+  }
+
+  /// Values of the property of the first object of that type.
+  static std::vector<std::string> values(const std::string& text, std::string_view type,
+                                         std::string_view property) {
+    std::vector<std::string> found;
+    bool of_type = false, of_property = false;
+    for (const XmlElement& element : xml_elements(text)) {
+      if (element.path == "ServerManagerState/Proxy") {
+        if (of_type && !found.empty()) break;
+        of_type = element.attribute("type") == type;
+      }
+      if (element.path == "ServerManagerState/Proxy/Property")
+        of_property = of_type && element.attribute("name") == property;
+      if (element.path == "ServerManagerState/Proxy/Property/Element" && of_property)
+        found.emplace_back(element.attribute("value"));
+    }
+    return found;
+  }
+};
+
+TEST_F(ViewState, NamesEverySeriesByItsWholePath) {
+  write_run();
+  const std::string text = state();
+  for (const char* name : {"particles", "surface", "bones", "frames"})
+    EXPECT_TRUE(contains(text, "\"" + (folder / name).string() + ".pvd\"")) << name;
+  EXPECT_FALSE(contains(text, "obstacles.pvd"));
+}
+
+TEST_F(ViewState, RefersOnlyToObjectsThatAreThere) {
+  write_run();
+  std::set<std::string, std::less<>> made, meant;
+  for (const XmlElement& element : xml_elements(state({.forces = ""}))) {
+    if (element.path == "ServerManagerState/Proxy") made.emplace(element.attribute("id"));
+    if (element.path == "ServerManagerState/Proxy/Property/Proxy")
+      meant.emplace(element.attribute("value"));
+    if (element.path == "ServerManagerState/ProxyCollection/Item")
+      meant.emplace(element.attribute("id"));
+  }
+  EXPECT_GT(meant.size(), 20u);
+  for (const std::string& id : meant) EXPECT_TRUE(made.contains(id)) << id;
+}
+
+TEST_F(ViewState, TakesAnyNameOfAFolder) {
+  folder /= "a \"run\" & <more> of Ärms";
+  std::filesystem::create_directories(folder);
+  write_run(2);
+  EXPECT_EQ(values(state(), "PVDReader", "FileName").at(0), (folder / "particles.pvd").string());
+  std::filesystem::rename(folder, folder.parent_path() / "away");
+  folder = folder.parent_path();
+}
+
+TEST_F(ViewState, BeginsWhenTheArrayIsLargestOrWhenItIsAskedTo) {
+  write_run();
+  EXPECT_EQ(values(state(), "AnimationScene", "AnimationTime").at(0), "1");
+  EXPECT_EQ(values(state({.time = 0.3}), "AnimationScene", "AnimationTime").at(0), "0.25");
+}
+
+TEST_F(ViewState, ColorsTheArrayAskedForWithItsUnit) {
+  write_run();
+  EXPECT_TRUE(contains(state(), "\"displacement (m)\""));
+  EXPECT_TRUE(contains(state({.array = "velocity"}), "\"velocity (m/s)\""));
+  test::expect_bad_input([&] { state({.array = "velocty"}); },
+                         {"no array 'velocty'; did you mean velocity?"});
+}
+
+/// The second bone turns about its head by 90 degrees: its far end moves by sqrt(2) times its
+/// length.
+TEST_F(ViewState, TheScaleEndsWhereAllButAHundredthOfTheValuesDo) {
+  write_run();
+  const SyntheticRun run;
+  const auto points = values(state(), "PVLookupTable", "RGBPoints");
+  ASSERT_EQ(points.size(), 20u);
+  EXPECT_EQ(points[0], "0");
+  const double farthest = std::sqrt(2.0) * run.skeleton.bones[1].length;
+  EXPECT_LT(std::stod(points[16]), 1.5 * farthest);
+  EXPECT_GT(std::stod(points[16]), 0.7 * farthest);
+}
+
+TEST_F(ViewState, ABodyAtRestHasAScaleThatGrows) {
+  write_run(1);
+  EXPECT_EQ(values(state(), "PVLookupTable", "AutomaticRescaleRangeMode").at(0), "1");
+  write_run(2);
+  EXPECT_EQ(values(state(), "PVLookupTable", "AutomaticRescaleRangeMode").at(0), "-1");
+}
+
+TEST_F(ViewState, CutsAcrossTheAxisAskedForOrNone) {
+  write_run();
+  EXPECT_EQ(values(state({.cut = "z"}), "Calculator", "Function").at(0), "coordsZ-displacement_Z");
+  EXPECT_TRUE(values(state({.cut = "none"}), "Calculator", "Function").empty());
+}
+
+TEST_F(ViewState, ArrowsOfForcesAreThereAndShownOnDemand) {
+  write_run();
+  EXPECT_FALSE(contains(state(), "the longest arrow"));
+  EXPECT_TRUE(contains(state({.forces = ""}), "force_pair: the longest arrow at any time is"));
+  EXPECT_TRUE(contains(state({.forces = "force_bone"}), "force_bone: the longest arrow"));
+  test::expect_bad_input([&] { state({.forces = "push"}); }, {"no array 'push'"});
+}
+
+TEST_F(ViewState, WhatParaViewHasSavedIsForeign) {
+  const auto file = folder / "view.pvsm";
+  EXPECT_FALSE(is_foreign_state(file));
+  write_run(2);
+  write_view_state(folder, file);
+  EXPECT_FALSE(is_foreign_state(file));
+  put(file, "<GenericParaViewApplication>\n</GenericParaViewApplication>\n");
+  EXPECT_TRUE(is_foreign_state(file));
+  std::filesystem::remove(file);
+  std::filesystem::create_symlink(folder / "missing", file);
+  EXPECT_TRUE(is_foreign_state(file));
+}
+
+TEST_F(ViewState, AFolderWithoutFramesIsRefused) {
+  test::expect_bad_input([&] { shown_run(folder, {}); }, {"particles.pvd"});
+}
+
+}  // namespace sinew::view_state_test
