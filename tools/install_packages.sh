@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# install_packages.sh build|test|package|bench ...: installs with apt-get the missing Debian packages for
-# building, testing, making packages or the benchmarks.
+# install_packages.sh build|test|package|bench|ci ...: installs with apt-get the missing Debian packages for
+# building, testing, making packages, the benchmarks or bare roots.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-dev libtbb-dev
@@ -10,6 +10,7 @@ build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-d
 test=(libgtest-dev libbenchmark-dev pybind11-dev python3-dev python3 python3-ase python3-matplotlib python3-meshio python3-numpy python3-vtk9 xauth iproute2 paraview procps calculix-ccx chromium clang-format clang-tidy)
 package=(pybind11-dev python3-dev dpkg-dev file help2man)
 bench=(libbenchmark-dev libgtest-dev python3)
+ci=(debootstrap debian-archive-keyring git)
 
 wanted=()
 for list in "$@"; do
@@ -18,7 +19,8 @@ for list in "$@"; do
     test) wanted+=("${test[@]}") ;;
     package) wanted+=("${package[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
-    *) echo "install_packages.sh: '$list' is none of build, test, package, bench" >&2; exit 2 ;;
+    ci) wanted+=("${ci[@]}") ;;
+    *) echo "install_packages.sh: '$list' is none of build, test, package, bench, ci" >&2; exit 2 ;;
   esac
 done
 
