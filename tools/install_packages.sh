@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # install_packages.sh build|test|package|bench|ci ...: installs with apt-get the missing Debian packages for
-# building, testing, making packages, the benchmarks or bare roots.
+# building, testing, making packages, the benchmarks or bare roots. With --list first, prints their names only.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-dev libtbb-dev
@@ -12,6 +12,11 @@ package=(pybind11-dev python3-dev dpkg-dev file help2man)
 bench=(libbenchmark-dev libgtest-dev python3)
 ci=(debootstrap debian-archive-keyring git)
 
+print_only=false
+if [ "${1:-}" = --list ]; then
+  print_only=true
+  shift
+fi
 wanted=()
 for list in "$@"; do
   case $list in
@@ -24,6 +29,10 @@ for list in "$@"; do
   esac
 done
 
+if $print_only; then
+  printf '%s\n' "${wanted[@]}"
+  exit 0
+fi
 missing=()
 for package in "${wanted[@]}"; do
   status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)

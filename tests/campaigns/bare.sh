@@ -19,34 +19,13 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
-out=$PWD/build/bare/$suite
-mkdir -p "$out"
+logs=$PWD/build/bare/$suite
+mkdir -p "$logs"
 own=/root/own/two_fingers
-
-exec 3>&2
-unfinished=
-ended() {
-  if [ -n "$unfinished" ]; then
-    tail -n 40 "$out/$unfinished.log" >&3
-    echo "bare.sh: $suite: $unfinished failed; its output is in $out" >&3
-  fi
-  remove_bare_root
-}
 
 fail() {
   echo "$*" >&2
   exit 1
-}
-
-took() { awk -v seconds=$(($1)) -v what="$2" 'BEGIN {printf "%6.1f minutes  %s\n", seconds / 60, what}'; }
-
-# NAME COMMAND ...: prints the minutes it took; its output is in NAME.log.
-stage() {
-  local began=$SECONDS
-  unfinished=$1
-  "${@:2}" >"$out/$1.log" 2>&1
-  unfinished=
-  took SECONDS-began "$1"
 }
 
 in_clone() { in_root sh -c "cd /root/sinew && $1"; }
@@ -87,16 +66,37 @@ check_runs() {
 # PICTURE COMMAND
 look() {
   in_clone "tests/campaigns/screenshot.sh /root/$1 $2"
-  cp "$root/root/$1" "$out/"
+  cp "$root/root/$1" "$logs/"
 }
 
 tests() { in_clone tests/run.sh; }
 
-without_each() { :; }
+# Prints what configuring reports as left out.
+left_out() {
+  in_clone "rm -rf /root/tried && cmake -S . -B /root/tried -G Ninja -DSINEW_TESTS=OFF >/root/tried.log" || return
+  grep '^-- Without' "$root/root/tried.log" || true
+}
+
+# Each package is removed from below those that depend on it, as an interrupted installation leaves them.
+without_each() {
+  local package lines python
+  python=$(in_root python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+  local optional=(lammps liblammps-dev libopenmpi-dev libfmt-dev pybind11-dev "libpython$python-dev" doxygen)
+  in_root apt-get -qq install -y --no-install-recommends "${optional[@]}" openmpi-bin python3-dev
+  lines=$(left_out)
+  [ -z "$lines" ] || fail "with all packages: $lines"
+  for package in "${optional[@]}" openmpi-bin python3-dev; do
+    in_root dpkg --force-depends --remove "$package"
+    lines=$(left_out)
+    echo "without $package: $lines"
+    [ "$(grep -c . <<< "$lines")" -le 1 ] || fail "without $package: more than one line"
+    [[ -n $lines || $package = openmpi-bin || $package = python3-dev ]] || fail "without $package: nothing is left out"
+    in_root apt-get -qq install -y --no-install-recommends "$package"
+  done
+}
 
 make_bare_root "$suite"
-trap ended EXIT
-took SECONDS "bare root"
+took SECONDS root
 stage clone clone
 stage demo in_clone tools/demo.sh
 stage own_mesh own_mesh

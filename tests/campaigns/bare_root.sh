@@ -4,6 +4,7 @@
 #     . bare_root.sh
 #     make_bare_root bookworm      # or trixie; $root is the folder
 #     in_root COMMAND ...          # as root, with nothing of this machine's environment
+#     stage NAME COMMAND ...       # prints the minutes it took; its output is in $logs/NAME.log
 #
 # Made by debootstrap (minbase), as root, from where this machine's apt has its packages, and removed when the script
 # ends. Its mounts are in a namespace of the script, so nothing of this machine is ever below the folder elsewhere.
@@ -35,6 +36,10 @@ processes_in_root() {
 remove_bare_root() {
   trap '' INT TERM HUP
   local place
+  if [ -n "$unfinished" ]; then
+    tail -n 40 "$logs/$unfinished.log" >&3
+    echo "$(basename "$0"): $unfinished failed; its output is in $logs" >&3
+  fi
   # shellcheck disable=SC2046
   kill $(jobs -p) 2>/dev/null || true
   for _ in 1 2 3; do
@@ -61,6 +66,18 @@ in_root() {
   attend chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
     DEBIAN_FRONTEND=noninteractive "$@"
 }
+
+exec 3>&2
+unfinished=
+stage() {
+  local began=$SECONDS
+  unfinished=$1
+  "${@:2}" >"$logs/$1.log" 2>&1
+  unfinished=
+  took SECONDS-began "$1"
+}
+
+took() { awk -v seconds=$(($1)) -v what="$2" 'BEGIN {printf "%6.1f minutes  %s\n", seconds / 60, what}'; }
 
 # Archives of Debian that this machine's apt knows, as lines of sources.list for another release.
 sources_of() {

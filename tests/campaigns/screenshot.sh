@@ -14,6 +14,10 @@ trap 'kill "${program:-}" 2>/dev/null || true; kill "$server" 2>/dev/null || tru
 trap 'exit 143' TERM INT
 read -r -t 30 -u "$ready" number || { echo "screenshot.sh: Xvfb gives no display" >&2; exit 1; }
 export DISPLAY=":$number"
+# At its first start ParaView shows a dialog, and waits until it is closed.
+version=$(paraview --version 2>/dev/null | grep -o '[0-9][0-9.]*$')
+mkdir -p "$HOME/.config/ParaView"
+printf '[General]\nGeneralSettings.ShowWelcomeDialog=false\n' > "$HOME/.config/ParaView/ParaView$version.ini"
 "$@" >"$said" 2>&1 &
 program=$!
 
@@ -28,10 +32,24 @@ hues() {
       END {for (h in hue) if (hue[h] > 1) hues++; print pixels + 0, hues + 0}'
 }
 
+fail() {
+  head -n 20 "$said" >&2
+  echo "screenshot.sh: $*" >&2
+  exit 1
+}
+
+before=
 for _ in $(seq 60); do
   sleep 2
-  kill -0 "$program" 2>/dev/null || { cat "$said" >&2; echo "screenshot.sh: $1 has ended" >&2; exit 1; }
+  kill -0 "$program" 2>/dev/null || fail "$1 has ended"
   ffmpeg -loglevel error -y -f x11grab -video_size 1280x1024 -i "$DISPLAY" -frames:v 1 "$picture"
-  read -r pixels hues < <(hues)
-  echo "$pixels $hues"
+  ! grep -qE 'ERR\||critical:|Traceback' "$said" || fail "$1 reports errors"
+  seen=$(hues)
+  read -r pixels hues <<< "$seen"
+  if [ "$pixels" -ge 1500 ] && [ "$hues" -ge 40 ] && [ "$seen" = "$before" ]; then
+    echo "$pixels colored pixels of $hues hues"
+    exit 0
+  fi
+  before=$seen
 done
+fail "$1 shows no body: $pixels colored pixels of $hues hues"
