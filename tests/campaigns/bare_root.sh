@@ -101,11 +101,12 @@ make_bare_root() {
   if [ ! -e "$root/etc/bare-root" ]; then
     mirror=$(sources_of "$suite" | awk -v suite="$suite" '$3 == suite {print $2; exit}')
     [ -n "$mirror" ] || no_bare_root "apt knows no archive of Debian"
-    log=$root.log
+    log=$root/debootstrap.out
     attend debootstrap --variant=minbase --cache-dir="$(realpath "$BARE_ROOT_PACKAGES")" "$suite" "$root" "$mirror" \
-      >"$log" 2>&1 || no_bare_root "debootstrap of $suite from $mirror: $(tail -n 1 "$log"; rm -f "$log")"
-    rm -f "$log"
+      >"$log" 2>&1 || no_bare_root "debootstrap of $suite from $mirror: $(tail -n 1 "$log")"
+    rm "$log"
     sources_of "$suite" > "$root/etc/apt/sources.list"
+    echo force-unsafe-io > "$root/etc/dpkg/dpkg.cfg.d/90fast"  # nobody misses it after a crash
     apt-config dump | grep '^Acquire::' > "$root/etc/apt/apt.conf.d/90here"
     touch "$root/etc/bare-root"
   fi
