@@ -14,7 +14,7 @@ same_so_far=(box_bend box_bend_bvh box_twist two_fingers)
 short=(--quiet --force --set solver.duration=0.2 --set output.interval=0.1 --set body.count=3000)
 make_bare_root bookworm
 logs=$PWD/build/arm64
-mkdir -p "$root/arm64" "$root/source" "$logs"
+mkdir -p "$root/source" "$logs"
 
 # Debian's packages for ARM64, by an apt with a state of its own, below /arm64.
 packages() {
@@ -27,7 +27,7 @@ packages() {
   # shellcheck disable=SC2046
   in_root "${apt[@]}" install -y --download-only --no-install-recommends libc6-dev libstdc++-12-dev \
     $(tools/install_packages.sh --list build | grep -E -- '-dev$|^libjs-')
-  in_root sh -c 'for package in /apt/cache/archives/*.deb; do dpkg -x $package /arm64; done'
+  in_root sh -c 'rm -rf /arm64; mkdir /arm64; for package in /apt/cache/archives/*.deb; do dpkg -x $package /arm64; done'
   # What the packages' scripts and Debian's merged /usr do otherwise.
   in_root sh -c 'cp -a /arm64/lib/. /arm64/usr/lib/ && rm -r /arm64/lib && ln -s usr/lib /arm64/lib
     cd /arm64/usr/lib/aarch64-linux-gnu && ln -s blas/libblas.so.3 lapack/liblapack.so.3 . &&
