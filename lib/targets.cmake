@@ -52,6 +52,8 @@ function(sinew_library room)
     set_target_properties(sinew_${room}_cgal PROPERTIES POSITION_INDEPENDENT_CODE ON
       JOB_POOL_COMPILE ${SINEW_HEAVY})
     target_include_directories(sinew_${room}_cgal PRIVATE ${PROJECT_SOURCE_DIR}/lib)
+    # CGAL 6 warns of the names that headers have in CGAL 5.
+    target_compile_definitions(sinew_${room}_cgal PRIVATE CGAL_NO_DEPRECATION_WARNINGS)
     target_link_libraries(sinew_${room}_cgal PRIVATE sinew_options ${ARG_PUBLIC} CGAL::CGAL)
     if(room STREQUAL mesh)  # the first room with such sources: CGAL's headers are compiled once, for all
       target_precompile_headers(sinew_mesh_cgal PRIVATE <CGAL/AABB_traits.h> <CGAL/AABB_tree.h>

@@ -1,24 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# packages.sh PACKAGES: installs the Debian packages in a bare root of Debian 12 (debootstrap, apt alone), runs a
+# packages.sh PACKAGES: installs the Debian packages in a bare root of Debian 12 (bare_root.sh, apt alone), runs a
 # shipped scene, reads the manual, completes words in bash and zsh, runs a Python script, links a program, and
-# removes all without a trace. As root; takes minutes and 2 GB. Set TMPDIR to choose where.
+# removes all without a trace. As root; takes minutes and 2 GB.
 set -euo pipefail
 
 packages=$(realpath "${1:?usage: packages.sh PACKAGES}")
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-root=$(mktemp -d)
-trap 'umount "$root/proc" 2>/dev/null || true; rm -rf "$root"' EXIT
-mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | head -1)
-debootstrap --variant=minbase bookworm "$root" "${mirror:?apt has no source}" >/dev/null
-cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
-cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
-mount -t proc proc "$root/proc" 2>/dev/null || true
+. "$here/bare_root.sh"
+make_bare_root bookworm
 mkdir "$root/packages"
 cp "$packages"/*.deb "$root/packages/"
-in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 
-in_root apt-get -qq update
 in_root apt-get -qq install -y --no-install-recommends man-db bash-completion zsh >/dev/null
 rm -f "$root/etc/dpkg/dpkg.cfg.d/"*  # minimal images leave manuals out
 in_root find / -xdev -name '*sinew*' -not -path '/packages/*' > "$root/before"

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LAMMPS's headers. They need a function of fmt that newer versions of it lack; error texts go to
+// LAMMPS's headers. Those of 2022 need a function of fmt that newer versions of it lack; those of
+// 2025 bring a copy of fmt of their own, whose functions are in LAMMPS's library. Error texts go to
 // LAMMPS as std::string.
 #pragma once
 
+#if __has_include(<lammps/fmt/format.h>)
+#undef FMT_HEADER_ONLY
+#include <lammps/fmt/format.h>
+#else
 #include <fmt/format.h>
-
 #if FMT_VERSION >= 90000
 namespace fmt {
 template <class Text, class... Values>
@@ -12,6 +16,7 @@ auto make_args_checked(const Text&, const std::remove_reference_t<Values>&... va
   return fmt::make_format_args(values...);
 }
 }  // namespace fmt
+#endif
 #endif
 
 #include <lammps/atom.h>

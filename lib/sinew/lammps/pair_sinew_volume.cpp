@@ -19,6 +19,15 @@ Mat3 cofactors_of(const Mat3& F) {
   return cofactors;
 }
 
+/// LAMMPS has named this differently since 2022.
+template <class Comm>
+void send_to_ghosts(Comm* comm, LAMMPS_NS::Pair* pair) {
+  if constexpr (requires { comm->forward_comm_pair(pair); })
+    comm->forward_comm_pair(pair);
+  else
+    comm->forward_comm(pair);
+}
+
 }  // namespace
 
 /// Calls visit(i, j) for the nearest neighbors at rest of all own particles.
@@ -34,7 +43,7 @@ void PairSinew::for_each_nearest(Visit&& visit) const {
 
 void PairSinew::send(Sent what) {
   sent_ = what;
-  comm->forward_comm_pair(this);
+  send_to_ghosts(comm, this);
 }
 
 /// What is constant of the particles that are here, until the lists are made again.
