@@ -4,7 +4,8 @@
 
 usage: make_gallery.py SINEW RUNS [NAME ...]     SINEW: the program build/bin/sinew; RUNS: a folder that keeps
                                                  the runs, so that a second call only draws; NAME: only these
-                                                 pictures. Needs Debian's python3-pil, paraview and chromium
+                                                 pictures. Needs Debian's python3-pil, paraview,
+                                                 libqt5svg5 and chromium
 """
 import os
 import subprocess
@@ -19,7 +20,7 @@ CONFIGS = DATA.parent / "configs"
 SCREENSHOT = DATA.parent / "tests/campaigns/screenshot.sh"
 # run: scene, and what of it is set otherwise
 RUNS = {
-    "box": ("box_bend", []),
+    "box_bend": ("box_bend", []),
     "twist": ("box_twist", []),
     "arm": ("arm_bend", []),
     "fox": ("creature_walk", []),
@@ -31,12 +32,12 @@ RUNS = {
 }
 # picture: run, what `sinew render` is told, and which of its pictures is taken
 PICTURES = {
-    "box_bend": ("box", [], "contact_sheet"),
+    "box_bend": ("box_bend", [], "contact_sheet"),
     "box_twist": ("twist", ["--times", "0,0.5,1"], "contact_sheet"),
     "arm": ("arm", ["--view", "surface", "--times", "0,0.6,1.5"], "surface_sheet"),
     "fox": ("fox", ["--view", "surface", "--times", "0.25,0.5,0.75"], "surface_sheet"),
-    "strain": ("box", ["--view", "strain", "--times", "0.5,1,1.4"], "strain_sheet"),
-    "forces": ("box", ["--view", "forces", "--times", "0.5,1,1.4"], "forces_sheet"),
+    "strain": ("box_bend", ["--view", "strain", "--times", "0.5,1,1.4"], "strain_sheet"),
+    "forces": ("box_bend", ["--view", "forces", "--times", "0.5,1,1.4"], "forces_sheet"),
     "compare": ("paper", ["--compare", "bonded", "--view", "strain", "--times", "0,1.4,3"],
                 "compare_strain_sheet"),
     "groups": ("groups", ["--view", "section", "--array", "level", "--times", "0,0.6,1.2"], "section_sheet"),
@@ -62,30 +63,32 @@ def draw(sinew, runs, name):
         keep(Path(folder) / f"{taken}.png", name)
 
 
-def keep(picture, name, box=None):
-    """All colors, in the smallest file; `box`: the part to keep, pixels."""
-    Image.open(picture).convert("RGB").crop(box).save(DATA / f"pictures/{name}.png", optimize=True)
+def keep(picture, name):
+    """All colors, in the smallest file, without a black border."""
+    image = Image.open(picture).convert("RGB")
+    image.crop(image.getbbox()).save(DATA / f"pictures/{name}.png", optimize=True)
 
 
 def draw_window(sinew, runs):
     """ParaView's window on the state that a run leaves."""
     with tempfile.TemporaryDirectory() as folder:
         picture = Path(folder) / "window.png"
-        subprocess.run([SCREENSHOT, picture, sinew, "view", simulated(sinew, runs, "box")], check=True,
+        subprocess.run([SCREENSHOT, picture, sinew, "view", simulated(sinew, runs, "box_bend")], check=True,
                        env={**os.environ, "HOME": folder})
         keep(picture, "paraview")
 
 
 def draw_report(sinew, runs):
     """The first screen of the report."""
-    run = simulated(sinew, runs, "box")
+    run = simulated(sinew, runs, "box_bend")
     subprocess.run([sinew, "measure", "--quiet", run], check=True, stdout=subprocess.DEVNULL)
     with tempfile.TemporaryDirectory() as folder:
         picture = Path(folder) / "page.png"
-        subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
-                        "--no-first-run", f"--user-data-dir={folder}/profile", "--window-size=1280,900",
-                        "--hide-scrollbars", "--virtual-time-budget=8000", f"--screenshot={picture}",
-                        (run / "report.html").as_uri()], check=True, stderr=subprocess.DEVNULL)
+        options = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                   "--disable-background-networking", "--no-first-run", f"--user-data-dir={folder}/profile",
+                   "--window-size=1280,1000", "--hide-scrollbars", "--virtual-time-budget=8000"]
+        subprocess.run(["chromium", *options, f"--screenshot={picture}", (run / "report.html").as_uri()], check=True,
+                       stderr=subprocess.DEVNULL)
         keep(picture, "report")
 
 
