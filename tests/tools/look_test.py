@@ -222,7 +222,7 @@ class ViewPreset(unittest.TestCase):
         self.assert_one_line(sinew("check", scene, *SMALL, "--picture", self.pictures / "scene.vtu"), 2, ".png")
 
     def test_check_needs_a_display_for_the_picture_only(self):
-        scene, bare = SOURCE / "configs/box_bend.yaml", without("DISPLAY", PATH="/nonexistent")
+        scene, bare = SOURCE / "configs/box_bend.yaml", without("DISPLAY", PATH=str(self.pictures / "missing"))
         self.assertEqual(sinew("check", scene, *SMALL, env=bare).returncode, 0)
         done = sinew("check", scene, *SMALL, "--picture", self.pictures / "a.png", env=bare)
         self.assert_one_line(done, 4, "apt-get install xvfb")
@@ -271,11 +271,11 @@ class ViewPreset(unittest.TestCase):
         self.assertEqual(self.names(), [])
 
     def test_a_missing_display_is_one_line(self):
-        done = self.render(env=without("DISPLAY", PATH="/nonexistent"))
+        done = self.render(env=without("DISPLAY", PATH=str(self.pictures / "missing")))
         self.assert_one_line(done, 4, "apt-get install xvfb")
 
     def test_view_says_what_to_install(self):
-        done = sinew("view", self.run_folder, env=without(PATH="/nonexistent"))
+        done = sinew("view", self.run_folder, env=without(PATH=str(self.pictures / "missing")))
         self.assert_one_line(done, 4, "apt-get install paraview")
 
     def test_view_needs_a_screen_and_a_run(self):
