@@ -162,6 +162,16 @@ class Made(unittest.TestCase):
         simulation.run_until(0.8)
         self.assertLess(abs(simulation.positions - before).max(), 0.003)
 
+    def test_groups_refuse_a_pose_and_go_on(self):
+        for dynamic in (False, True):
+            words = {"hierarchy": {"enabled": True, "dynamic": dynamic, "least": 64}}
+            simulation = sinew.Simulation(sinew.make_scene(BAR | words, self.body), self.body)
+            with self.assertRaises(sinew.Error) as raised:
+                simulation.set_pose({"high": (1, 0, 0, 0)})
+            self.assertIn("groups of particles", str(raised.exception))
+            self.assertIn("set hierarchy.enabled to false", str(raised.exception))
+            simulation.step(2)
+
     def test_forces_of_ones_own_accelerate(self):
         """Newton's second law for the first step, and a body that is pushed alike moves as in gravity."""
         pushed = sinew.Simulation(self.scene, self.body, own_forces=True)
