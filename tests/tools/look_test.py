@@ -66,8 +66,8 @@ class ViewPreset(unittest.TestCase):
 
     def display(self):
         """Of a server without limits."""
-        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-noreset", "-nolisten", "tcp"],
-                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        words = [f":{100 + os.getpid() % 50000}", "-displayfd", "1", "-noreset", "-nolisten", "tcp"]
+        server = subprocess.Popen(["Xvfb", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.addCleanup(server.communicate)
         self.addCleanup(server.kill)
         return ":" + server.stdout.readline().strip()

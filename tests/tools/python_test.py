@@ -122,7 +122,7 @@ class Examples(SmallRun):
         self.assertGreater(float(words[3]), 0.01)  # downwind
 
     def test_a_picture_by_vtk(self):
-        self.example("vtk_scene.py", self.scene, self.folder / "pose.png", before=["xvfb-run", "-a"])
+        self.example("vtk_scene.py", self.scene, self.folder / "pose.png", before=[SOURCE / "tests/tools/on_display.sh"])
         self.assertGreater((self.folder / "pose.png").stat().st_size, 5000)
 
 
