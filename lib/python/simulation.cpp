@@ -106,9 +106,10 @@ class Stepped {
       if (target.contains(name)) track.keys[1].quaternion = target[name];
       tracks.push_back(std::move(track));
     }
-    motion_ = played(make_motion(tracks, skeleton), {});
+    Motion motion = played(make_motion(tracks, skeleton), {});
+    simulation_->play(motion);  // which may refuse: what is remembered stays true
+    motion_ = std::move(motion);
     target_ = std::move(target);
-    simulation_->play(motion_);
   }
 
  private:

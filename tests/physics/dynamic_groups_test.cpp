@@ -189,5 +189,15 @@ TEST(DynamicGroups, RefuseWhatTheyCannotBeCombinedWith) {
   test::expect_bad_input([&] { cells.group_as_it_moves(options); }, {"cells have no groups"});
 }
 
+TEST(DynamicGroups, RefuseAnotherMotion) {
+  const Bar bar = swinging(MaterialModel::bonded);
+  Simulation simulation = begin(bar);
+  const auto play = [&] { simulation.play(motion_of(bar.settings, bar.body.skeleton)); };
+  for (const int steps : {0, 3}) {
+    while (simulation.steps() < steps) simulation.step();
+    test::expect_bad_input(play, {"groups of particles", "; set hierarchy.enabled to false"});
+  }
+}
+
 }  // namespace
 }  // namespace sinew::groups_test

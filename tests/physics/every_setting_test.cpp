@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every combination of materials, damping, bones, surroundings and integrators: the kernel takes
-// the steps that the readable reference takes, in both precisions.
+// Combinations of materials, damping, bones, surroundings and integrators in which each value of
+// one meets each of any other: the kernel takes the steps that the readable reference takes, in
+// both precisions. With SINEW_ALL_COMBINATIONS in the environment, all of them.
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <numeric>
+#include <set>
+
 #include "all_steppers.h"
 #include "surroundings.h"
 
@@ -162,29 +169,114 @@ void expect_same_steps(const Settings& settings, const Around& around) {
   expect_same(floats, reference, 3e-4);
 }
 
-class EverySetting : public testing::TestWithParam<int> {};
-
-TEST_P(EverySetting, StepsInTheKernelAsInTheReference) {
-  const Choice material = materials()[static_cast<std::size_t>(GetParam())];
-  for (const Integrator integrator :
-       {Integrator::symplectic_euler, Integrator::explicit_euler, Integrator::velocity_verlet})
-    for (const Choice& damping : dampings())
-      for (const Choice& bone : bones())
-        for (const Around& around : all_surroundings()) {
-          Settings settings = moving_scene();
-          settings.solver.integrator = integrator;
-          for (const Choice* choice : {&material, &damping, &bone}) choice->choose(settings);
-          SCOPED_TRACE(material.name + ", " + damping.name + ", " + bone.name + ", " + around.name +
-                       ", integrator " + std::to_string(int(integrator)));
-          expect_same_steps(settings, around);
-          if (testing::Test::HasFailure()) return;
-        }
+std::vector<Choice> integrators() {
+  std::vector<Choice> all;
+  for (const auto& [name, integrator] :
+       {std::pair{"symplectic Euler", Integrator::symplectic_euler},
+        std::pair{"explicit Euler", Integrator::explicit_euler},
+        std::pair{"velocity Verlet", Integrator::velocity_verlet}})
+    all.push_back({name, [integrator = integrator](Settings& settings) {
+                     settings.solver.integrator = integrator;
+                   }});
+  return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, EverySetting, testing::Range(0, 6), [](const auto& test) {
-  std::string name = materials()[static_cast<std::size_t>(test.param)].name;
-  std::erase_if(name, [](char c) { return c == ',' || c == ' ' || c == '_'; });
-  return name;
-});
+/// The place of a value in the list of each setting: material, bones, surroundings, damping,
+/// integrator.
+using Combination = std::array<std::size_t, 5>;
+
+Combination counts() {
+  return {materials().size(), bones().size(), all_surroundings().size(), dampings().size(),
+          integrators().size()};
+}
+
+std::vector<Combination> all_combinations() {
+  const Combination count = counts();
+  const auto product =
+      std::accumulate(count.begin(), count.end(), std::size_t(1), std::multiplies());
+  std::vector<Combination> all(product);
+  for (std::size_t n = 0; n < product; ++n)
+    for (std::size_t k = 0, rest = n; k < count.size(); rest /= count[k++])
+      all[n][k] = rest % count[k];
+  return all;
+}
+
+std::size_t prime_from(std::size_t n) {
+  const auto divides = [&](std::size_t d) { return n % d == 0; };
+  for (;; ++n) {
+    std::size_t d = 2;
+    while (d < n && !divides(d)) ++d;
+    if (d >= n) return n;
+  }
+}
+
+/// In a space of p x p x p points, p a prime number, planes of three directions cross in one point:
+/// the settings are directions along (1, k, k^2), and their values are planes (an orthogonal array
+/// of Bush's).
+std::vector<Combination> chosen_combinations() {
+  const Combination count = counts();
+  const std::size_t p =
+      prime_from(std::max(count.size(), *std::max_element(count.begin(), count.end())));
+  std::vector<Combination> chosen(p * p * p);
+  for (std::size_t n = 0; n < chosen.size(); ++n)
+    for (std::size_t k = 0; k < count.size(); ++k)
+      chosen[n][k] = (n % p + k * (n / p % p) + k * k * (n / p / p)) % p % count[k];
+  return chosen;
+}
+
+TEST(Combinations, HoldAllValuesOfAnyThreeSettings) {
+  const Combination count = counts();
+  const std::vector<Combination> chosen = chosen_combinations();
+  EXPECT_LT(10 * chosen.size(), all_combinations().size());
+  for (std::size_t a = 0; a < count.size(); ++a)
+    for (std::size_t b = a + 1; b < count.size(); ++b)
+      for (std::size_t c = b + 1; c < count.size(); ++c) {
+        std::set<std::array<std::size_t, 3>> met;
+        for (const Combination& one : chosen) met.insert({one[a], one[b], one[c]});
+        EXPECT_EQ(met.size(), count[a] * count[b] * count[c]) << a << ", " << b << ", " << c;
+      }
+}
+
+void expect_same_steps(const Combination& combination) {
+  const Around around = all_surroundings()[combination[2]];
+  Settings settings = moving_scene();
+  std::string name = around.name;
+  for (const Choice& choice : {materials()[combination[0]], bones()[combination[1]],
+                               dampings()[combination[3]], integrators()[combination[4]]}) {
+    choice.choose(settings);
+    name += ", " + choice.name;
+  }
+  SCOPED_TRACE(name);
+  expect_same_steps(settings, around);
+}
+
+class EverySetting : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(EverySetting, StepsInTheKernelAsInTheReference) {
+  const bool all = std::getenv("SINEW_ALL_COMBINATIONS");
+  for (const Combination& one : all ? all_combinations() : chosen_combinations()) {
+    if (one[0] != GetParam()) continue;
+    expect_same_steps(one);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, EverySetting, testing::Range<std::size_t>(0, materials().size()),
+                         [](const auto& test) {
+                           std::string name = materials()[test.param].name;
+                           std::erase_if(name,
+                                         [](char c) { return c == ',' || c == ' ' || c == '_'; });
+                           return name;
+                         });
+
+TEST(Combinations, AreSteppedForEachMaterial) {
+  const testing::UnitTest& program = *testing::UnitTest::GetInstance();
+  int stepped = 0;
+  for (int k = 0; k < program.total_test_suite_count(); ++k)
+    if (const testing::TestSuite& suite = *program.GetTestSuite(k);
+        suite.name() == std::string("Of/EverySetting"))
+      stepped = suite.total_test_count();
+  EXPECT_EQ(stepped, static_cast<int>(materials().size()));
+}
 
 }  // namespace sinew::every_setting_test

@@ -327,6 +327,16 @@ TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
   });
 }
 
+TEST(StaticGroups, RefuseAnotherMotion) {
+  const Settings settings = bending_scene();
+  sinew::Setup setup = set_up(settings);
+  const Motion motion = setup.motion;
+  const Particles particles = test::particles_of(settings, setup.body.rest);
+  Simulation simulation = start(settings, std::move(setup), particles);
+  const auto play = [&] { simulation.play(motion); };
+  test::expect_bad_input(play, {"groups of particles", "; set hierarchy.enabled to false"});
+}
+
 // Sums from a sample of blocks.
 
 /// 20 x 20 x 20 blocks of one particle.

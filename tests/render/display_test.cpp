@@ -30,8 +30,9 @@ TEST(Display, one_that_does_not_answer_is_replaced_by_xvfb) {
 }
 
 TEST(Display, without_xvfb_one_line_says_what_to_install) {
+  const Folder folder;
   std::string output;
-  EXPECT_EQ(draw_with("-u DISPLAY PATH=/nonexistent", &output), 4);
+  EXPECT_EQ(draw_with("-u DISPLAY PATH=" + folder.file("missing"), &output), 4);
   EXPECT_NE(output.find("apt-get install xvfb"), std::string::npos) << output;
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
 }

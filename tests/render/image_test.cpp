@@ -39,9 +39,11 @@ TEST(Image, png_holds_its_size_and_colors) {
 }
 
 TEST(Image, png_in_a_missing_folder_is_an_error_with_a_cure) {
-  const Error error = error_of([] { write_png(Image(20, 20), "/nonexistent/a.png"); });
+  const Folder folder;
+  const std::string place = folder.file("missing/a.png");
+  const Error error = error_of([&] { write_png(Image(20, 20), place); });
   EXPECT_EQ(error.exit(), Exit::not_written);
-  EXPECT_NE(std::string(error.what()).find("/nonexistent/a.png"), std::string::npos);
+  EXPECT_NE(std::string(error.what()).find(place), std::string::npos);
 }
 
 TEST(Image, png_that_cannot_replace_leaves_nothing_behind) {

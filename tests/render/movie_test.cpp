@@ -18,7 +18,7 @@ void add_frames(Movie& movie, int count, int width, int height) {
 /// Other programs cannot be found while this lives.
 class EmptyPath {
  public:
-  EmptyPath() { setenv("PATH", "/nonexistent", 1); }
+  explicit EmptyPath(const Folder& folder) { setenv("PATH", folder.file("missing").c_str(), 1); }
   ~EmptyPath() { setenv("PATH", before_.c_str(), 1); }
 
  private:
@@ -50,7 +50,7 @@ TEST(Movie, given_up_leaves_nothing) {
 
 TEST(Movie, without_ffmpeg_says_what_to_install) {
   const Folder folder;
-  const EmptyPath path;
+  const EmptyPath path(folder);
   const Error error = error_of([&] { Movie(folder.file("a.mp4"), {}); });
   EXPECT_EQ(error.exit(), Exit::not_written);
   EXPECT_NE(std::string(error.what()).find("apt-get install ffmpeg"), std::string::npos);
@@ -58,9 +58,11 @@ TEST(Movie, without_ffmpeg_says_what_to_install) {
 }
 
 TEST(Movie, in_a_missing_folder_is_an_error) {
-  const Error error = error_of([] { Movie("/nonexistent/a.mp4", {}); });
+  const Folder folder;
+  const std::string place = folder.file("missing/a.mp4");
+  const Error error = error_of([&] { Movie(place, {}); });
   EXPECT_EQ(error.exit(), Exit::not_written);
-  EXPECT_NE(std::string(error.what()).find("/nonexistent/a.mp4"), std::string::npos);
+  EXPECT_NE(std::string(error.what()).find(place), std::string::npos);
 }
 
 TEST(Movie, tells_what_ffmpeg_complained_about) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shipped scenes, coarse and cut short, end in the very state that golden_hashes.json holds, in both
-precisions.
+precisions. Scenes with groups of particles are cut short only, since coarse bodies have none.
 
 usage: golden_test.py BIN SOURCE [SCENE ...] [--update]    --update writes the hashes found
 
@@ -16,6 +16,7 @@ import hashlib
 import json
 import math
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -24,7 +25,8 @@ from pathlib import Path
 
 HASHES = Path(__file__).with_name("golden_hashes.json")
 WITHOUT_FMA = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2"}
-CUT = ["--set", "solver.duration=0.2", "--set", "output.interval=0.1", "--set", "body.count=3000"]
+SHORT = ["--set", "solver.duration=0.2", "--set", "output.interval=0.1"]
+COARSE = ["--set", "body.count=3000"]
 SKIPPED = 77
 
 
@@ -47,27 +49,35 @@ def restarted_without_fma():
     return done.stdout.strip()
 
 
+def says(scene, line):
+    return re.search(rf"^ *{line}$", scene.read_text(), re.MULTILINE) is not None
+
+
 def run(binaries, scene, precision):
     """The record of a short run."""
+    grouped = says(scene, "hierarchy:")
     with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run([binaries / "sinew-simulate", "--quiet", "--force", scene, "-o", folder, *CUT,
-                               "--set", f"solver.precision={precision}"], env={**os.environ, **WITHOUT_FMA},
-                              capture_output=True, text=True)
+        done = subprocess.run([binaries / "sinew-simulate", "--quiet", "--force", scene, "-o", folder, *SHORT,
+                               *([] if grouped else COARSE), "--set", f"solver.precision={precision}"],
+                              env={**os.environ, **WITHOUT_FMA}, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
-        return json.loads((Path(folder) / "run.json").read_text())
+        record = json.loads((Path(folder) / "run.json").read_text())
+        assert not grouped or record["hierarchy"]["grouped"] > 0, f"{scene} has no groups"
+        return record
 
 
 def hashes_of(binaries, scene):
-    """By precision; scenes that go by cells know only one."""
+    """By precision; scenes that go by cells know only one, and so do those whose frames are equilibria: loads this
+    small are lost in the rounding of the other."""
     double = run(binaries, scene, "double")
     hashes = {"double": double["state_hash"]}
-    if double["neighbor_search"] == "lists":
+    if double["neighbor_search"] == "lists" and not says(scene, "method: static"):
         hashes["single"] = run(binaries, scene, "single")["state_hash"]
     return hashes
 
 
 def shipped(source):
-    return [file.stem for file in sorted((source / "configs").glob("*.yaml")) if file.stem != "paper_literal"]
+    return [file.stem for file in sorted((source / "configs").glob("*.yaml"))]
 
 
 def compare(name, found, held):

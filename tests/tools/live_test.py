@@ -73,9 +73,10 @@ class Live(unittest.TestCase):
         picture = self.run_folder / "live.png"
         environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages",
                        "OMPI_MCA_orte_tmpdir_base": str(self.run_folder)}
-        done = subprocess.run(["xvfb-run", "-a", "pvbatch", self.run_folder / "live.py", "--frames", "2", "--size",
-                               "400", "200", "--picture", str(picture)], env=environment, capture_output=True,
-                              text=True, timeout=250)
+        number = str(100 + os.getpid() % 50000)  # not the first that is free, which another display may be leaving
+        done = subprocess.run(["xvfb-run", "-a", "-n", number, "pvbatch", self.run_folder / "live.py", "--frames", "2",
+                               "--size", "400", "200", "--picture", str(picture)], env=environment,
+                              capture_output=True, text=True, timeout=250)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("frame 2\nthe run has ended, 1 shown; view.py", done.stdout)
         self.assertNotIn("rror", done.stderr)

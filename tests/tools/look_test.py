@@ -66,8 +66,8 @@ class ViewPreset(unittest.TestCase):
 
     def display(self):
         """Of a server without limits."""
-        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-noreset", "-nolisten", "tcp"],
-                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        words = [f":{100 + os.getpid() % 50000}", "-displayfd", "1", "-noreset", "-nolisten", "tcp"]
+        server = subprocess.Popen(["Xvfb", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.addCleanup(server.communicate)
         self.addCleanup(server.kill)
         return ":" + server.stdout.readline().strip()
@@ -222,7 +222,7 @@ class ViewPreset(unittest.TestCase):
         self.assert_one_line(sinew("check", scene, *SMALL, "--picture", self.pictures / "scene.vtu"), 2, ".png")
 
     def test_check_needs_a_display_for_the_picture_only(self):
-        scene, bare = SOURCE / "configs/box_bend.yaml", without("DISPLAY", PATH="/nonexistent")
+        scene, bare = SOURCE / "configs/box_bend.yaml", without("DISPLAY", PATH=str(self.pictures / "missing"))
         self.assertEqual(sinew("check", scene, *SMALL, env=bare).returncode, 0)
         done = sinew("check", scene, *SMALL, "--picture", self.pictures / "a.png", env=bare)
         self.assert_one_line(done, 4, "apt-get install xvfb")
@@ -271,7 +271,7 @@ class ViewPreset(unittest.TestCase):
         self.assertEqual(self.names(), [])
 
     def test_a_missing_display_is_one_line(self):
-        done = self.render(env=without("DISPLAY", PATH="/nonexistent"))
+        done = self.render(env=without("DISPLAY", PATH=str(self.pictures / "missing")))
         self.assert_one_line(done, 4, "apt-get install xvfb")
 
     def test_view_and_live_explain_what_is_missing(self):

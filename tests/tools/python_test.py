@@ -122,7 +122,7 @@ class Examples(SmallRun):
         self.assertGreater(float(words[3]), 0.01)  # downwind
 
     def test_a_picture_by_vtk(self):
-        self.example("vtk_scene.py", self.scene, self.folder / "pose.png", before=["xvfb-run", "-a"])
+        self.example("vtk_scene.py", self.scene, self.folder / "pose.png", before=[SOURCE / "tests/tools/on_display.sh"])
         self.assertGreater((self.folder / "pose.png").stat().st_size, 5000)
 
 
@@ -161,6 +161,16 @@ class Made(unittest.TestCase):
         simulation.set_pose({"low": (1, 0, 0, 0)})
         simulation.run_until(0.8)
         self.assertLess(abs(simulation.positions - before).max(), 0.003)
+
+    def test_groups_refuse_a_pose_and_go_on(self):
+        for dynamic in (False, True):
+            words = {"hierarchy": {"enabled": True, "dynamic": dynamic, "least": 64}}
+            simulation = sinew.Simulation(sinew.make_scene(BAR | words, self.body), self.body)
+            with self.assertRaises(sinew.Error) as raised:
+                simulation.set_pose({"high": (1, 0, 0, 0)})
+            self.assertIn("groups of particles", str(raised.exception))
+            self.assertIn("set hierarchy.enabled to false", str(raised.exception))
+            simulation.step(2)
 
     def test_forces_of_ones_own_accelerate(self):
         """Newton's second law for the first step, and a body that is pushed alike moves as in gravity."""

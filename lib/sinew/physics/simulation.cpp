@@ -71,6 +71,9 @@ void Simulation::follow(StepPlan plan) {
 double Simulation::time() const { return relaxation_ ? relaxation_->time() : plan_.time(steps_); }
 
 void Simulation::play(Motion motion) {
+  if (body_->grouping || dynamic_)
+    throw bad_input("groups of particles are made for one motion, which another cannot replace",
+                    "set hierarchy.enabled to false");
   motion_ = std::make_shared<const Motion>(std::move(motion));
   cursor_ = PoseCursor(body_->skeleton, *motion_);
   evaluated_ = false;

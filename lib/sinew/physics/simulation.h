@@ -54,7 +54,8 @@ class Simulation {
   double lost_by_merging() const { return regrouping_.lost; }
   std::int64_t regroupings() const { return regrouping_.times; }
 
-  /// From now on the bones move so; at the present moment the pose should be the same.
+  /// From now on the bones move so; at the present moment the pose should be the same. Throws bad
+  /// input where there are groups of particles, static or dynamic: they are made for one motion.
   void play(Motion motion);
 
   /// Advances by one step. Throws Error (unstable) that names step, particle, cause and a cure when
