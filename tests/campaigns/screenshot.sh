@@ -46,7 +46,7 @@ for _ in $(seq 60); do
   ! grep -qE 'ERR\||critical:|Traceback' "$said" || fail "$1 reports errors"
   seen=$(hues)
   read -r pixels hues <<< "$seen"
-  if [ "$pixels" -ge 1500 ] && [ "$hues" -ge 40 ] && [ "$seen" = "$before" ]; then
+  if [ "$pixels" -ge 1500 ] && [ "$hues" -ge 80 ] && [ "$seen" = "$before" ]; then
     echo "$pixels colored pixels of $hues hues"
     exit 0
   fi
