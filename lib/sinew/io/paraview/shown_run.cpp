@@ -15,13 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t max_samples = 12;
-constexpr double outliers = 0.01;      ///< share of the values beyond each end of the color scale
-constexpr double least_strain = 1e-9;  ///< rounding: the body is at rest
+constexpr std::size_t min_samples = 2, max_samples = 12;
+constexpr std::size_t max_particles_read = 4'000'000;  // in some seconds
+constexpr double outliers = 0.01;  ///< share of the values beyond each end of the color scale
+constexpr double rounding = 1e-9;  ///< rounding: the body is at rest
 
-/// Frames spread over the run, the first and the last included.
-std::vector<std::size_t> samples(std::size_t frames) {
-  const std::size_t count = std::min(frames, max_samples);
+/// Frames spread over the run, the first and the last included; fewer of large ones.
+std::vector<std::size_t> samples(std::size_t frames, std::size_t points) {
+  const std::size_t affordable = max_particles_read / std::max<std::size_t>(1, points);
+  const std::size_t count = std::min(frames, std::clamp(affordable, min_samples, max_samples));
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < count; ++k)
     chosen.push_back(count == 1 ? 0 : k * (frames - 1) / (count - 1));
@@ -106,7 +108,7 @@ class ColorRange {
 
   /// Numbers of an array of which all are alike are not known to grow.
   void put(ShownRun& run) const {
-    run.grows = !(high_ - low_ > least_strain * std::max(1.0, std::abs(high_)));
+    run.grows = !(high_ - low_ > rounding * std::max(1.0, std::abs(high_)));
     if (run.grows) return;
     run.range = {low_ >= 0 && low_ < 0.25 * high_ ? 0 : low_, high_};
   }
@@ -115,9 +117,9 @@ class ColorRange {
   double low_ = INFINITY, high_ = -INFINITY;
 };
 
-void read_particles(ShownRun& run, const std::vector<PvdRow>& rows) {
+void read_particles(ShownRun& run, const std::vector<PvdRow>& rows, std::size_t particles) {
   ColorRange range;
-  for (const std::size_t k : samples(rows.size())) {
+  for (const std::size_t k : samples(rows.size(), particles)) {
     const Dataset frame =
         read_vtu(run.folder / rows[k].file, {run.array.c_str(), run.forces.c_str()});
     const Column* colors = find(frame.point_columns, run.array);
@@ -134,7 +136,7 @@ void read_particles(ShownRun& run, const std::vector<PvdRow>& rows) {
 void read_supports(ShownRun& run) {
   const std::vector<PvdRow> rows = read_pvd(run.folder / "supports.pvd");
   std::vector<Dataset> frames;
-  for (const std::size_t k : samples(rows.size())) {
+  for (const std::size_t k : samples(rows.size(), 1)) {
     frames.push_back(read_vtu(run.folder / rows[k].file, {"force"}));
     for (const Vec3& force : vectors(frames.back().point_columns, "force"))
       run.hardest = std::max(run.hardest, force.norm());
@@ -146,6 +148,12 @@ void read_supports(ShownRun& run) {
     for (std::size_t i = 0; i < tips.size(); ++i) tips[i] = frame.points[i] + scale * tips[i];
     add_corners(run, tips);
   }
+}
+
+/// Whether the first frame of the series has.
+bool has_cells(const ShownRun& run, const std::string& series) {
+  const std::vector<PvdRow> rows = read_pvd(run.folder / (series + ".pvd"));
+  return !rows.empty() && read_vtu(run.folder / rows[0].file).cells() > 0;
 }
 
 /// Nearest time of a frame.
@@ -177,15 +185,16 @@ ShownRun shown_run(const fs::path& folder, const ViewOptions& options) {
   for (const char* name : {"particles", "surface", "bones", "frames", "obstacles", "supports"})
     if (fs::exists(run.folder / (std::string(name) + ".pvd"))) run.series.emplace_back(name);
   const Dataset rest = read_vtu(run.folder / "body.vtu", {"radius"});
+  if (rest.points.empty())
+    throw bad_input(Place{(run.folder / "body.vtu").string()}, "has no particles",
+                    "run the scene again");
   add_corners(run, rest.points);
   run.rest = {run.corners.at(0), run.corners[7]};
   run.radius = numbers(rest.point_columns, "radius").at(0);
   choose_arrays(run, run.folder / rows[0].file, options);
-  read_particles(run, rows);
+  read_particles(run, rows, rest.points.size());
   if (run.has("supports")) read_supports(run);
-  if (run.has("bones"))
-    run.has_bones =
-        read_vtu(run.folder / read_pvd(run.folder / "bones.pvd").at(0).file).cells() > 0;
+  run.has_bones = run.has("bones") && has_cells(run, "bones");
   run.moment = frame_at(run.times, options.time.value_or(run.moment));
   return run;
 }

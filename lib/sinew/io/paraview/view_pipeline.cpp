@@ -22,7 +22,7 @@ class Pipeline {
   ViewPipeline made() {
     open_series();
     made_.body = &cut_body();
-    made_.edges = &feature_edges();
+    if (run_.has("surface")) made_.edges = &feature_edges();
     if (run_.has_bones) {
       made_.bones = &tubes_of("bone", 0, 0, bone_radius(run_));
       made_.axes = &tubes_of("axes", 1, 3, 1.25 * bone_radius(run_));

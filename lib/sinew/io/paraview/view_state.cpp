@@ -170,8 +170,9 @@ class Show {
 
   /// What both views show: edges of the skin, bones, obstacles, forces of supports and loads.
   void add_common(std::vector<const StateProxy*>& shown, double opacity) {
-    shown.push_back(&shape("edges", "GeometryRepresentation", *parts_.edges, edge, opacity)
-                         .number("LineWidth", 2));
+    if (parts_.edges != nullptr)
+      shown.push_back(&shape("edges", "GeometryRepresentation", *parts_.edges, edge, opacity)
+                           .number("LineWidth", 2));
     if (parts_.bones != nullptr) add_bones(shown);
     if (run_.has("obstacles"))
       shown.push_back(&shape("obstacles", "UnstructuredGridRepresentation",
