@@ -150,6 +150,17 @@ TEST_F(ViewState, WhatParaViewHasSavedIsForeign) {
   EXPECT_TRUE(is_foreign_state(file));
 }
 
+TEST_F(ViewState, SeriesThatAreMissingAreLeftOut) {
+  write_run();
+  for (const char* name : {"surface.pvd", "bones.pvd", "frames.pvd"})
+    std::filesystem::remove(folder / name);
+  const std::string text = state();
+  EXPECT_TRUE(contains(text, "particles.pvd"));
+  EXPECT_FALSE(contains(text, "FeatureEdges"));
+  put(folder / "bones.pvd", pvd_text({}));
+  EXPECT_FALSE(contains(state(), "TubeFilter"));
+}
+
 TEST_F(ViewState, AFolderWithoutFramesIsRefused) {
   test::expect_bad_input([&] { shown_run(folder, {}); }, {"particles.pvd"});
 }

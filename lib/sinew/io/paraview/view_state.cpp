@@ -63,10 +63,8 @@ class Show {
     add_common(shown, 0.35);
     shown.push_back(&note(*parts_.time, ink, upper_left));
     left_->refer("Representations", shown);
-    shown = {
-        &shape("surface", "UnstructuredGridRepresentation", *parts_.series["surface"], skin, 0.2)
-             .text("SelectNormalArray", {"normal"})
-             .number("Specular", 0.3)};
+    shown.clear();
+    if (run_.has("surface")) shown.push_back(&skin_in_view());
     add_common(shown, 0.8);
     if (parts_.note != nullptr) {
       shown.push_back(&shape("arrows", "GeometryRepresentation", *parts_.forces, force));
@@ -93,6 +91,12 @@ class Show {
         .numbers("AmbientColor", color)
         .numbers("DiffuseColor", color)
         .number("Opacity", opacity);
+  }
+
+  StateProxy& skin_in_view() {
+    return shape("surface", "UnstructuredGridRepresentation", *parts_.series["surface"], skin, 0.2)
+        .text("SelectNormalArray", {"normal"})
+        .number("Specular", 0.3);
   }
 
   StateProxy& as_spheres(StateProxy& points, double radius) {
