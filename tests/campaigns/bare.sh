@@ -81,7 +81,7 @@ left_out() {
 without_each() {
   local package lines python
   python=$(in_root python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-  local optional=(lammps liblammps-dev libopenmpi-dev libfmt-dev pybind11-dev "libpython$python-dev" doxygen)
+  local optional=(lammps liblammps-dev libopenmpi-dev pybind11-dev "libpython$python-dev" doxygen)
   in_root apt-get -qq install -y --no-install-recommends "${optional[@]}" openmpi-bin python3-dev
   lines=$(left_out)
   [ -z "$lines" ] || fail "with all packages: $lines"

@@ -43,7 +43,7 @@ for _ in $(seq 60); do
   sleep 2
   kill -0 "$program" 2>/dev/null || fail "$1 has ended"
   ffmpeg -loglevel error -y -f x11grab -video_size 1280x1024 -i "$DISPLAY" -frames:v 1 "$picture"
-  ! grep -qE 'ERR\||critical:|Traceback' "$said" || fail "$1 reports errors"
+  ! grep -qE 'ERR\||WARN\||critical:|Traceback' "$said" || fail "$1 reports errors"
   seen=$(hues)
   read -r pixels hues <<< "$seen"
   if [ "$pixels" -ge 1500 ] && [ "$hues" -ge 80 ] && [ "$seen" = "$before" ]; then
