@@ -50,7 +50,7 @@ END
 }
 
 build() {
-  git archive HEAD | tar -x -C "$root/source"
+  git -c safe.directory="$PWD" archive HEAD | tar -x -C "$root/source"
   toolchain > "$root/arm64.cmake"
   in_root cmake -S /source -B /build -G Ninja -DCMAKE_TOOLCHAIN_FILE=/arm64.cmake -DCMAKE_BUILD_TYPE=Release \
     -DSINEW_TESTS=OFF -DSINEW_PYTHON=OFF

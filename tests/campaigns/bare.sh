@@ -31,9 +31,9 @@ fail() {
 in_clone() { in_root sh -c "cd /root/sinew && $1"; }
 
 clone() {
-  git diff --quiet HEAD || echo "bare.sh: changes that are not committed are left out" >&2
+  git -c safe.directory="$PWD" diff --quiet HEAD || echo "bare.sh: changes that are not committed are left out" >&2
   in_root rm -rf /root/sinew /root/own
-  git archive --prefix=root/sinew/ HEAD | tar -x -C "$root"
+  git -c safe.directory="$PWD" archive --prefix=root/sinew/ HEAD | tar -x -C "$root"
 }
 
 own_mesh() {
