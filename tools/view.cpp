@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -172,10 +173,25 @@ fs::path temporary_folder() {
   return folder;
 }
 
+/// By "paraview version 5.11.0", which the program prints.
+CameraLinks links_for(const fs::path& program) {
+  const std::string command = shell_quoted(program.string()) + " --version 2>/dev/null";
+  std::FILE* said = ::popen(command.c_str(), "r");
+  if (said == nullptr) return CameraLinks::none;
+  int major = 0, minor = 0;
+  const int numbers = std::fscanf(said, "paraview version %d.%d", &major, &minor);
+  while (std::fgetc(said) != EOF) continue;  // to its end, or it would be killed while it prints
+  ::pclose(said);
+  if (numbers != 2) return CameraLinks::none;
+  if (major == 5 && minor <= 11) return CameraLinks::until_5_11;
+  return major > 5 || minor >= 13 ? CameraLinks::from_5_13 : CameraLinks::none;
+}
+
 /// Writes the state that is opened: in place of that of the run, unless ParaView has saved another
 /// one there or the folder cannot be written to.
-fs::path write_state(const RunFolder& folder, const ViewOptions& options, const Common& common) {
-  const std::string text = view_state(shown_run(folder.path, options), options);
+fs::path write_state(const RunFolder& folder, const ViewOptions& options, CameraLinks links,
+                     const Common& common) {
+  const std::string text = view_state(shown_run(folder.path, options), options, links);
   std::string why;
   try {
     if (is_foreign_state(folder.view()))
@@ -196,7 +212,7 @@ fs::path write_state(const RunFolder& folder, const ViewOptions& options, const 
 Exit open_window(const RunFolder& folder, const Options& options, const Common& common) {
   const fs::path program = program_named("paraview");
   check_screen();
-  const fs::path state = write_state(folder, options.view, common);
+  const fs::path state = write_state(folder, options.view, links_for(program), common);
   return become(program, {program.string(), "--state=" + fs::absolute(state).string()});
 }
 

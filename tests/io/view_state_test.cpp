@@ -150,6 +150,15 @@ TEST_F(ViewState, WhatParaViewHasSavedIsForeign) {
   EXPECT_TRUE(is_foreign_state(file));
 }
 
+TEST_F(ViewState, CamerasAreLinkedAsTheVersionOfParaViewWritesIt) {
+  write_run(2);
+  const auto text = [&](CameraLinks links) { return view_state(shown_run(folder, {}), {}, links); };
+  EXPECT_FALSE(contains(text(CameraLinks::none), "CameraLink"));
+  EXPECT_TRUE(contains(text(CameraLinks::until_5_11), "<CameraLink"));
+  EXPECT_FALSE(contains(text(CameraLinks::until_5_11), "exceptionBehavior"));
+  EXPECT_TRUE(contains(text(CameraLinks::from_5_13), "exceptionBehavior"));
+}
+
 TEST_F(ViewState, SeriesThatAreMissingAreLeftOut) {
   write_run();
   for (const char* name : {"surface.pvd", "bones.pvd", "frames.pvd"})

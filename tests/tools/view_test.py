@@ -90,6 +90,14 @@ class View(unittest.TestCase):
             self.assertIn(part, text)
         self.assertRegex(text, r'"AnimationTime"[^/]*\n[^/]*value="0.05"')
 
+    def test_cameras_are_linked_where_the_version_is_known(self):
+        self.assertNotIn("CameraLink", self.opened().read_text())
+        for version, linked, excepted in (("5.11.0", True, False), ("5.13.2", True, True), ("5.12.1", False, False)):
+            (self.programs / "paraview").write_text(
+                f'#!/bin/sh\n[ "$1" = --version ] && echo "paraview version {version}" || printf "%s\\n" "$@"\n')
+            text = self.opened().read_text()
+            self.assertEqual(("CameraLink" in text, "exceptionBehavior" in text), (linked, excepted), version)
+
     def test_a_state_that_paraview_saved_is_kept(self):
         saved = "<GenericParaViewApplication/>\n"
         self.state.write_text(saved)

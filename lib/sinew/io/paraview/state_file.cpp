@@ -75,8 +75,10 @@ StateProxy& StateFile::add(std::string_view group, std::string_view type,
   return proxies_.emplace_back(id, group, type);
 }
 
-void StateFile::link_cameras(const StateProxy& one, const StateProxy& other) {
+void StateFile::link_cameras(const StateProxy& one, const StateProxy& other, CameraLinks how) {
+  if (how == CameraLinks::none) return;
   links_ += "      <CameraLink name=\"cameras of both views\">\n";
+  if (how == CameraLinks::from_5_13) links_ += "        <Properties exceptionBehavior=\"0\"/>\n";
   for (const auto& [from, to] : {std::pair{&one, &other}, std::pair{&other, &one}})
     for (const auto& [direction, view] : {std::pair{"input", from}, std::pair{"output", to}})
       links_ += "        <Proxy" + xml_attribute("direction", direction) +

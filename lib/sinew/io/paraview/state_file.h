@@ -42,6 +42,9 @@ class StateProxy {
   std::string head_, properties_, raw_;
 };
 
+/// How versions of ParaView write that cameras are linked: each warns of what another writes.
+enum class CameraLinks { none, until_5_11, from_5_13 };
+
 /// All objects, the collections in which ParaView looks for them by name, and links of cameras.
 class StateFile {
  public:
@@ -52,7 +55,7 @@ class StateFile {
   StateProxy& add(std::string_view group, std::string_view type, std::string_view collection = {},
                   std::string_view name = {});
   /// The camera of each follows that of the other.
-  void link_cameras(const StateProxy& one, const StateProxy& other);
+  void link_cameras(const StateProxy& one, const StateProxy& other, CameraLinks how);
 
   std::string text() const;
 

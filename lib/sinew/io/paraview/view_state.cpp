@@ -54,7 +54,8 @@ Color of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 /// The state under construction: sources that are there already, and what both views show.
 class Show {
  public:
-  Show(const ShownRun& run, const ViewOptions& options) : run_(run), options_(options) {}
+  Show(const ShownRun& run, const ViewOptions& options, CameraLinks links)
+      : run_(run), options_(options), links_(links) {}
 
   std::string text() {
     parts_ = view_pipeline(state_, run_, options_);
@@ -249,7 +250,7 @@ class Show {
   }
 
   void arrange() {
-    state_.link_cameras(*left_, *right_);
+    state_.link_cameras(*left_, *right_, links_);
     const std::string left = std::to_string(left_->id()), right = std::to_string(right_->id());
     state_.add("misc", "ViewLayout", "layouts", "sinew")
         .raw(
@@ -277,6 +278,7 @@ class Show {
 
   const ShownRun& run_;
   const ViewOptions& options_;
+  CameraLinks links_;
   StateFile state_{version};
   ViewPipeline parts_;
   StateProxy* left_ = nullptr;
@@ -288,13 +290,12 @@ class Show {
 
 }  // namespace
 
-std::string view_state(const ShownRun& run, const ViewOptions& options) {
-  return Show(run, options).text();
+std::string view_state(const ShownRun& run, const ViewOptions& options, CameraLinks links) {
+  return Show(run, options, links).text();
 }
 
-void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file,
-                      const ViewOptions& options) {
-  write_file(file, view_state(shown_run(folder, options), options));
+void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  write_file(file, view_state(shown_run(folder, {})));
 }
 
 bool is_foreign_state(const std::filesystem::path& file) {

@@ -9,15 +9,17 @@
 #include <string>
 
 #include <sinew/io/paraview/shown_run.h>
+#include <sinew/io/paraview/state_file.h>
 
 namespace sinew {
 
 /// The text of the state. Files are named by their absolute paths.
-std::string view_state(const ShownRun& run, const ViewOptions& options = {});
+std::string view_state(const ShownRun& run, const ViewOptions& options = {},
+                       CameraLinks links = CameraLinks::none);
 
-/// Writes it as `file`. Throws bad input where the folder has no frame, and not written.
-void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file,
-                      const ViewOptions& options = {});
+/// Writes it as `file`, for any version of ParaView. Throws bad input where the folder has no
+/// frame, and not written.
+void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 /// Whether there is such a file that view_state() has not written: ParaView has saved it.
 bool is_foreign_state(const std::filesystem::path& file);
