@@ -28,12 +28,11 @@ std::vector<Field<Settings>> rows::output_rows() {
       field<S>("output", "bonds", SINEW_AT(S, output.bonds), "",
                "also writes the bonds between particles as lines, with length, strain, force and "
                "whether they broke"),
-      may_lack("none",
-               field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
-                        "additional arrays of particles, such as \"J, stress\", or all: F, "
-                        "J, stretch, strain, hencky_strain, strain_eq (there by itself up to "
-                        "200,000 particles), stress, von_mises, D2min, turnover, inverted, "
-                        "pose_error")),
+      may_lack("none", field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
+                                "arrays of particles beside the usual ones (strain_eq is one up to "
+                                "200,000 particles), such as \"J, stress\", or all: F, J, stretch, "
+                                "strain, hencky_strain, strain_eq, stress, von_mises, D2min, "
+                                "turnover, inverted, pose_error")),
       may_lack("all", field<S>("output", "only", SINEW_AT(S, output.only), "",
                                "the only arrays of particles beside those of output.arrays, such "
                                "as \"displacement, velocity\"")),
