@@ -302,7 +302,11 @@ bool is_foreign_state(const std::filesystem::path& file) {
   std::error_code unreachable;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file, unreachable))) return false;
   if (!std::filesystem::is_regular_file(file, unreachable)) return true;
-  return read_head(file, std::string_view(mark).size()) != mark;
+  try {
+    return read_head(file, std::string_view(mark).size()) != mark;
+  } catch (const Error&) {  // it may not be read: it is somebody's
+    return true;
+  }
 }
 
 }  // namespace sinew

@@ -21,7 +21,7 @@ std::string view_state(const ShownRun& run, const ViewOptions& options = {},
 /// frame, and not written.
 void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-/// Whether there is such a file that view_state() has not written: ParaView has saved it.
+/// Whether there is such a file that view_state() has not written, or that cannot be read.
 bool is_foreign_state(const std::filesystem::path& file);
 
 }  // namespace sinew
