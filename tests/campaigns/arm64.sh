@@ -64,9 +64,9 @@ stage build build
 differ=0
 for file in configs/*.yaml; do
   scene=$(basename "$file" .yaml)
-  "$bin/sinew-simulate" "${short[@]}" "$file" -o "$root/native/$scene"
+  "$bin/sinew-simulate" "$file" "${short[@]}" -o "$root/native/$scene" >/dev/null
   in_root qemu-aarch64-static -L /arm64 -E LD_LIBRARY_PATH=/usr/lib/aarch64-linux-gnu /build/bin/sinew-simulate \
-    "${short[@]}" "/source/$file" -o "/runs/$scene"
+    "/source/$file" "${short[@]}" -o "/runs/$scene" >/dev/null
   if [ "$(state_in "$root/native/$scene")" = "$(state_in "$root/runs/$scene")" ]; then
     echo "$scene: the same state"
   elif [[ " ${same_so_far[*]} " == *" $scene "* ]]; then
