@@ -35,7 +35,7 @@ build/own_force box.yaml | grep -E '^mean displacement [0-9.e-]+ m along x$'
 if build/fill_mesh missing.obj body.vtu 2>error.txt; then exit 1; else test $? = 2; fi
 grep -q missing.obj error.txt
 
-if [ -d "$build/python/sinew" ]; then
+if cmake --build "$build" --target help | grep "^sinew_python:" >/dev/null; then
   PYTHONPATH=$(echo "$work"/installed/lib/python3.*/dist-packages) /usr/bin/python3 -c '
 import sinew
 assert "/installed/lib/python3." in sinew.__file__, sinew.__file__'
