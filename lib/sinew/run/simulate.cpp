@@ -275,9 +275,14 @@ class Run {
     log_.spend("writing", watch.lap());
   }
 
-  /// Unless the user has saved another one in its place.
+  /// Unless the user has saved another one in its place. No run fails for it, unless the disk does.
   void write_state() const {
-    if (!is_foreign_state(folder_.view())) write_view_state(folder_.path, folder_.view());
+    try {
+      if (!is_foreign_state(folder_.view())) write_view_state(folder_.path, folder_.view());
+    } catch (const Error& error) {
+      if (error.exit() == Exit::not_written) throw;
+      say(options_, "there is no view.pvsm: " + std::string(error.what()));
+    }
   }
 
   const Settings& scene_;
