@@ -267,6 +267,18 @@ class OnLammps(SmallRun):
         self.assert_series_are_whole(last + 1)
         self.assertLess(self.largest_distance(self.out, whole, last), 1e-6)  # written in single precision
 
+    def test_words_of_mpirun_that_go_over_several_lines_are_one_reason(self):
+        """As Open MPI 5 says it; the real mpirun of this system may keep to one line."""
+        said = ("-" * 74 + "\nprterun noticed that process rank 1 with PID 9 on node here exited\non signal 9 (Killed).\n"
+                + "-" * 74 + "\nmore\n")
+        mpirun = self.folder / "bin/mpirun"
+        mpirun.parent.mkdir()
+        mpirun.write_text(f"#!/bin/sh\ncat >&2 <<'END'\n{said}END\nexit 137\n")
+        mpirun.chmod(0o755)
+        path = {**os.environ, "PATH": f"{mpirun.parent}:{os.environ['PATH']}"}
+        done = sinew("simulate", self.scene, "-o", self.out, *ON_LAMMPS, 2, check=2, env=path)
+        self.assertIn("process rank 1 with PID 9 on node here exited on signal 9 (Killed) (go on", done.stderr)
+
     def test_a_stopped_run_says_how_to_go_on_and_may_do_so_without_lammps(self):
         for name in (signal.SIGINT, signal.SIGTERM):
             self.out = self.folder / name.name

@@ -206,6 +206,18 @@ class Stops(SmallRun):
         self.assertEqual(typed.returncode, 0, typed.stderr)
         self.assertEqual(self.record()["status"], "finished")
 
+    def test_a_run_whose_state_of_paraview_cannot_be_made_goes_on(self):
+        words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
+        with subprocess.Popen([BIN / "sinew", *words], stderr=subprocess.PIPE, text=True) as child:
+            self.wait_for(child, "particles/particles_000002.vtu")
+            (self.out / "body.vtu").write_text("no VTU")
+            child.send_signal(signal.SIGINT)
+            said = child.stderr.read()
+            self.assertEqual(child.wait(60), 130, said)
+        self.assertIn("warning: view.pvsm is not written: ", said)
+        self.assertEqual(self.record()["status"], "stopped")
+        self.assert_series_are_whole(self.record()["frames"])
+
     def test_interrupt_finishes_the_frame_and_says_how_to_go_on(self):
         for name in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
             self.out = self.folder / name.name

@@ -41,8 +41,8 @@ bool is_in_path(const std::string& program) {
   return false;
 }
 
-/// What mpirun says of each signal that it passes on.
-constexpr std::string_view forwarding = "mpirun: Forwarding signal";
+/// What mpirun, or the prterun behind it, says of each signal that it passes on.
+constexpr std::string_view forwarding = ": Forwarding signal";
 
 /// Whether a job of a cluster says where the ranks go.
 bool is_managed() {
@@ -93,12 +93,26 @@ std::string line_with(const fs::path& file, const std::string& part) {
   return "";
 }
 
+/// The sentence from `part` on: mpirun breaks its lines and frames them by dashes; "" for none.
+std::string sentence_with(const fs::path& file, const std::string& part) {
+  std::ifstream lines(file);
+  std::string words;
+  for (std::string line; std::getline(lines, line);) {
+    const auto at = words.empty() ? line.find(part) : 0;
+    if (at == std::string::npos) continue;
+    if (line.find_first_not_of("- ") == std::string::npos) break;
+    words += (words.empty() ? "" : " ") + line.substr(at);
+  }
+  return words;
+}
+
 /// The first line that says anything, with the one after it.
 std::string first_words(const fs::path& file) {
   std::ifstream lines(file);
   std::string words, line;
   while (std::getline(lines, line) && (words.empty() || !line.empty()))
-    if (line.find_first_not_of("- ") != std::string::npos && !line.starts_with(forwarding))
+    if (line.find_first_not_of("- ") != std::string::npos &&
+        line.find(forwarding) == std::string::npos)
       words += (words.empty() ? "" : " ") + line;
   return words.substr(0, words.find(':'));
 }
@@ -197,8 +211,8 @@ class EngineProcess {
       return Error(known ? Exit::not_written : Exit::bad_input, own.substr(7));
     }
     std::string why = line_with(folder_.log(), "ERROR");
-    if (why.empty()) why = line_with(errors(), "process rank");
-    if (why.empty() && listens_ && !line_with(errors(), "ORTE").empty())
+    if (why.empty()) why = sentence_with(errors(), "process rank");
+    if (why.empty() && listens_ && !line_with(errors(), "RTE ").empty())  // ORTE, or PRTE
       why = "a host, or the network to it, does not answer any more";
     if (why.empty()) why = first_words(errors());
     if (why.empty()) why = "mpirun ended with code " + std::to_string(code);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/run/simulate.h>
 
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -279,9 +280,10 @@ class Run {
   void write_state() const {
     try {
       if (!is_foreign_state(folder_.view())) write_view_state(folder_.path, folder_.view());
-    } catch (const Error& error) {
-      if (error.exit() == Exit::not_written) throw;
-      say(options_, "there is no view.pvsm: " + std::string(error.what()));
+    } catch (const std::exception& error) {
+      const auto* known = dynamic_cast<const Error*>(&error);
+      if (known != nullptr && known->exit() == Exit::not_written) throw;
+      say(options_, "warning: view.pvsm is not written: " + std::string(error.what()));
     }
   }
 
