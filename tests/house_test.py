@@ -43,6 +43,11 @@ HEAVY_TARGETS = {
     r"LAMMPS::|fmt::": ("lammps",),
     r"CLI11::": (),
 }
+# Pattern of a call -> the only files that may have it.
+IN_ONE_PLACE = {
+    r"O_CREAT|\bstd::o?fstream\b|\b(fopen|creat|mkstemp|copy_file|create_director\w+)\(": ("lib/sinew/core/file.cpp",),
+    r"\bf(printf|put[cs]|write)\(|\bstd::(cout|cerr|clog)\b": ("tools/command/results.cpp", "tools/command/terminal.cpp"),
+}
 PARTS = ("SOURCES", "CGAL_SOURCES", "PUBLIC", "PRIVATE", "INTERFACE")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
@@ -172,6 +177,16 @@ def product_files(source):
         yield from (path for path in sorted((source / folder).rglob("*")) if path.suffix in (".h", ".cpp"))
 
 
+def place_breaches(source, path):
+    """Files are created, and messages printed, where links and control characters are seen to."""
+    name = path.relative_to(source).as_posix()
+    code = re.sub(r"//[^\n]*", "", path.read_text())
+    for pattern, places in IN_ONE_PLACE.items():
+        found = re.search(pattern, code)
+        if found and name not in places and not name.startswith("lib/examples/"):
+            yield f"{name}: {found.group(0)} belongs in {' or '.join(places)}"
+
+
 def share_breaches(source):
     sizes = [len(path.read_text().split("\n")) - 1 for path in product_files(source)]
     short = sum(size < SHORT_FILE for size in sizes)
@@ -221,6 +236,8 @@ def breaches(source):
         for path in sorted((lib / room).rglob("*")):
             if path.suffix in (".h", ".cpp", ".in"):
                 yield from include_breaches(lib, path)
+    for path in product_files(source):
+        yield from place_breaches(source, path)
     for path in source_files(source):
         yield from license_breaches(source, path)
         yield from size_breaches(source, path)

@@ -63,9 +63,9 @@ double speed_in_motion(const Setup& setup, const StepperChoice& choice, double a
 }
 
 void warn_of_memory(const Needs& needs, std::vector<std::string>& warnings) {
-  const auto available = static_cast<std::uint64_t>(available_memory());
-  if (needs.memory > available)
-    warnings.push_back("the run needs about " + bytes_text(needs.memory) + " of memory, " +
+  const double available = available_memory(), needed = static_cast<double>(needs.memory);
+  if (needed > available)
+    warnings.push_back("the run needs about " + bytes_text(needed) + " of memory, " +
                        bytes_text(available) +
                        " are free: make body.radius larger, or use solver.precision single");
 }
@@ -244,9 +244,10 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
     add_steps(settings, setup, speed, results);
   add_groups(settings, setup, filling.particles, results, warnings);
   add_stepper(choice, results);
-  results.add("disk", bytes_text(needs.disk));
-  results.add("disk_free", bytes_text(free_space(run_folder(scene, "").path)));
-  results.add("memory", bytes_text(needs.memory));
+  const std::uint64_t free = free_space(run_folder(scene, "").path);
+  for (const auto& [key, bytes] :
+       {std::pair("disk", needs.disk), {"disk_free", free}, {"memory", needs.memory}})
+    results.add(key, bytes_text(static_cast<double>(bytes)));
   results.add("particle_steps_per_second", rate);
   if (!setup.load_steps) results.add("stepping_time", work / rate, "s");
   if (!picture.empty()) {
@@ -255,8 +256,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   }
   results.add("warnings", warnings.size());
   results.print(common);
-  for (const std::string& warning : warnings)
-    std::fprintf(stderr, "sinew: warning: %s\n", warning.c_str());
+  for (const std::string& warning : warnings) print_error("sinew: warning: " + warning);
   return Exit::done;
 }
 

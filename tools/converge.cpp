@@ -28,6 +28,9 @@ struct Options : RunOptions {
   std::vector<double> radii;
 };
 
+constexpr const char* how_to_go_on =
+    "sinew: stopped; go on with the whole study by the same command and --resume";
+
 fs::path folder_of_study(const Options& options) {
   if (!options.folder.empty()) return options.folder;
   fs::path folder = run_folder(options.scene, "").path;
@@ -111,9 +114,8 @@ Exit run_all(const Options& options, const Common& common, const fs::path& study
     if (options.resume && is_finished(options, common, folder, radius)) continue;
     say(common, "radius " + number_text(radius) + " m:");
     const ChildEnd end = run_child("simulate", words_for(options, common, folder, radius));
-    const auto exit = static_cast<Exit>(end.exit);
-    if (exit == Exit::interrupted)
-      say(common, "or with the whole study: the same command and --resume");
+    const Exit exit = exit_of("simulate", end);
+    if (exit == Exit::interrupted) say(common, how_to_go_on);
     if (exit != Exit::done) return exit;
   }
   return Exit::done;
@@ -132,7 +134,10 @@ Exit converge(const Options& options, const Common& common) {
   StageProgress progress("measuring", progress_style(common.quiet));
   MeasureOptions how;
   how.ahead = common.threads != 1;
-  how.progress = [&](std::size_t done, std::size_t of) { progress.at(done, of); };
+  how.progress = [&](std::size_t done, std::size_t of) {
+    if (stop_requested()) throw Error(Exit::interrupted, std::string(how_to_go_on).substr(7));
+    progress.at(done, of);
+  };
   const Study study = study_runs(folders, how);
   write_study(study, out);
   print_study(study, out, common);

@@ -56,7 +56,8 @@ Settings settings_for_scene(const Options& options, const Common& common) {
 
 void print(const FillReport& report, const Options& options, const Common& common) {
   Results results;
-  for (const ReportRow& row : rows_of(report)) results.add(row.key, json_of(row.value), row.unit);
+  for (const auto& rows : {rows_of(report), times_of(report)})
+    for (const ReportRow& row : rows) results.add(row.key, json_of(row.value), row.unit);
   results.add("warnings", report.warnings);
   results.add("file", options.output);
   results.print(common);

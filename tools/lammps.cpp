@@ -27,6 +27,7 @@ Interruption take_interruption() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();  // before those of MPI
   std::signal(SIGUSR1, remember);
   std::signal(SIGUSR2, remember);
   const Ranks ranks(argc, argv);

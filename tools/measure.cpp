@@ -104,7 +104,7 @@ Exit told(const std::vector<Check>& checks) {
   Exit exit = Exit::done;
   for (const Check& check : checks) {
     if (check.pass) continue;
-    std::fprintf(stderr, "sinew: %s\n", describe(check).c_str());
+    print_error("sinew: " + describe(check));
     exit = Exit::limit_passed;
   }
   return exit;

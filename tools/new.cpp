@@ -110,7 +110,7 @@ Exit make(Options options, const Common& common) {
   results.add("up", scene.axes);
   results.add("bones", scene.bones);
   results.add("size", scene.size);
-  results.add("run", "sinew run " + options.files.scene);
+  results.add("run", "sinew run " + shell_quoted(options.files.scene));
   results.print(common);
   if (!scene.warning.empty()) say(common, "sinew: warning: " + scene.warning);
   return Exit::done;

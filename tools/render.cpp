@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include <sinew/core/file.h>
 #include <sinew/core/system.h>
 #include <sinew/core/threads.h>
 #include <sinew/render/display.h>
@@ -255,7 +256,10 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
     }
     return Exit::done;
   }
-  create({figure_set.folder});
+  if (options.target.empty())
+    create_inner_folder(figure_set.folder);
+  else
+    create_folder(figure_set.folder);
   const PicturesLock lock(figure_set.folder);
   Helpers helpers(helpers_for(run, options), words);
   Share share(options, common, views.size() * pictures_planned(options, runs.front()));

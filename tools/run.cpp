@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-run: fills, simulates, measures, renders and reports, each by its own program.
 #include <fmt/format.h>
-#include <csignal>
 #include <filesystem>
 #include <optional>
 
@@ -70,7 +69,7 @@ class Parts {
   Exit run(const std::string& command, const char* stage, const Words& words) {
     const ChildEnd end = run_child(command, words);
     spend(stage);
-    return exit_of(command, end);
+    return taken(command, end);
   }
 
   /// Waits for a part that was at work beside the others, and tells its progress.
@@ -82,7 +81,7 @@ class Parts {
       return percent;
     });
     spend(stage);
-    return exit_of(command, end);
+    return taken(command, end);
   }
 
   /// Where what people look at lies.
@@ -104,17 +103,10 @@ class Parts {
     times_ += (times_.empty() ? "" : ", ") + std::string(stage) + ' ' + tenths(seconds);
   }
 
-  Exit exit_of(const std::string& command, const ChildEnd& end) {
+  Exit taken(const std::string& command, const ChildEnd& end) {
     const auto found = nlohmann::ordered_json::parse(end.output, nullptr, false);
     if (found.is_object()) collect(found);
-    for (const Exit known : {Exit::done, Exit::limit_passed, Exit::bad_input, Exit::unstable,
-                             Exit::not_written, Exit::interrupted})
-      if (end.exit == static_cast<int>(known)) return known;
-    for (const int stop : {SIGHUP, SIGINT, SIGTERM})
-      if (end.exit == 128 + stop) return Exit::interrupted;
-    throw bad_input("sinew-" + command + " ended with code " + std::to_string(end.exit) +
-                        (end.exit > 128 ? ", by signal " + std::to_string(end.exit - 128) : ""),
-                    "see whether memory ran out; run sinew " + command + " by itself");
+    return exit_of(command, end);
   }
 
   static std::string tenths(double seconds) { return fmt::format("{:.1f}", seconds); }
@@ -152,6 +144,10 @@ Exit show(const Options& options, const Common& common, const std::string& folde
     movie.reset();
     const PicturesLock lock(RunFolder{folder}.pictures());  // tidies up
   }
+  if (exit == Exit::interrupted)
+    say(common,
+        "sinew: stopped; the motion is complete: for pictures and report give the same "
+        "command and --resume");
   return exit;
 }
 

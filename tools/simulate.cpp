@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-simulate: moves the bones of a scene and writes what the body does.
-#include <algorithm>
-#include <cctype>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -46,22 +43,14 @@ void print_results(const RunFolder& folder, const std::string& text, const Commo
   results.print(common);
 }
 
-/// As a shell takes it for one word.
-std::string shell_word(const std::string& text) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_./=,:+-", c); };
-  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + '\'';
-}
-
 /// The command that goes on with this run.
 std::string resume_words(const Options& options, const Common& common, const RunFolder& folder) {
-  std::string words = "sinew " + options.invoked_as + ' ' + shell_word(options.scene);
-  for (const std::string& word : words_of(options.engine)) words += ' ' + shell_word(word);
+  std::string words = "sinew " + options.invoked_as + ' ' + shell_quoted(options.scene);
+  for (const std::string& word : words_of(options.engine)) words += ' ' + shell_quoted(word);
   for (const Override& one : common.overrides)
-    if (one.path != "solver.wall_time") words += " --set " + shell_word(one.path + '=' + one.value);
-  return words + " -o " + shell_word(folder.path.string()) + " --resume";
+    if (one.path != "solver.wall_time")
+      words += " --set " + shell_quoted(one.path + '=' + one.value);
+  return words + " -o " + shell_quoted(folder.path.string()) + " --resume";
 }
 
 Exit simulate_scene(int argc, char** argv, const Options& options, const Common& common) {

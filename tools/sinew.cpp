@@ -65,8 +65,7 @@ std::string name_of(const std::string& word) {
 
 /// Returns only by throwing.
 Exit become(const std::string& name, const std::vector<char*>& rest) {
-  const auto program =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / ("sinew-" + name);
+  const auto program = this_program().parent_path() / ("sinew-" + name);
   std::string path = program.string();
   std::vector<char*> arguments = {path.data()};
   arguments.insert(arguments.end(), rest.begin(), rest.end());

@@ -95,8 +95,8 @@ fs::path program_named(const std::string& name) {
 /// VTK's, which sinew is built with.
 std::vector<fs::path> private_places() {
   const fs::path modules = "usr/lib/python3/dist-packages";
-  std::vector<fs::path> places{fs::read_symlink("/proc/self/exe").parent_path().parent_path() /
-                               "paraview-python" / modules};
+  std::vector<fs::path> places{this_program().parent_path().parent_path() / "paraview-python" /
+                               modules};
   if (const std::string home = from_environment("HOME"); !home.empty())
     places.push_back(fs::path(home) / ".local/share/sinew/paraview-python" / modules);
   return places;
@@ -135,7 +135,7 @@ void check_screen() {
 
 /// Both in the build and where sinew is installed.
 fs::path own_script(const std::string& name) {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path program = this_program();
   fs::path script = program.parent_path().parent_path() / "share/sinew" / name;
   if (!fs::exists(script))
     throw bad_input(Place{script.string()}, "is missing", "install all files of sinew");

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <sinew/sinew.h>
+#include "made.h"
 
 namespace sinew::python {
 

@@ -18,3 +18,7 @@ struct FilledBody {
 };
 
 }  // namespace sinew::python
+
+template <>
+class pybind11::detail::type_caster<sinew::python::FilledBody>
+    : public pybind11::detail::made_caster<sinew::python::FilledBody> {};

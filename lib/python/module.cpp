@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The module sinew._sinew; sinew/__init__.py adds what is easier in Python.
 #include "arrays.h"
+#include "without_gil.h"
 
 namespace {
 
@@ -27,6 +28,8 @@ PYBIND11_MODULE(_sinew, module) {
   module.doc() = "Elastic bodies bent by a skeleton.";
   module.attr("__version__") = sinew::version();
   bind_errors(module);
+  py::module_::import("atexit").attr("register")(
+      py::cpp_function(&sinew::python::WithoutGil::let_all_end));
   sinew::python::bind_scenes(module);
   sinew::python::bind_simulation(module);
   sinew::python::bind_runs(module);

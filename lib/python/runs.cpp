@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.h"
+#include "without_gil.h"
 
 namespace sinew::python {
 namespace {
@@ -15,7 +16,7 @@ std::shared_ptr<RunFiles> open(const std::filesystem::path& folder) {
 py::dict measure(const std::filesystem::path& folder) {
   Measured measured;
   {
-    const py::gil_scoped_release release;
+    const WithoutGil free;
     const RunFiles run = open_run({folder});
     measured = measure_run(run, {});
   }
@@ -32,7 +33,7 @@ std::shared_ptr<RunFrame> frame_of(const RunFiles& run, std::int64_t index) {
   const auto frames = static_cast<std::int64_t>(run.frames());
   if (index < 0) index += frames;
   if (index < 0 || index >= frames) throw py::index_error("there is no such frame");
-  const py::gil_scoped_release release;
+  const WithoutGil free;
   return std::make_shared<RunFrame>(read_frame(run, static_cast<std::size_t>(index)));
 }
 
@@ -43,14 +44,16 @@ void simulate_into(const Settings& scene, const std::filesystem::path& folder, b
   options.command = {"sinew.simulate"};
   bool interrupted = false;
   Stopwatch since_asked;
+  const bool hears_signals = is_main_thread();
   options.stop_requested = [&] {  // after every step
-    if (interrupted || since_asked.seconds() < 0.05) return interrupted;
+    if (leaving) return true;
+    if (!hears_signals || interrupted || since_asked.seconds() < 0.05) return interrupted;
     since_asked.lap();
     const py::gil_scoped_acquire acquire;
     return interrupted = PyErr_CheckSignals() != 0;
   };
   {
-    const py::gil_scoped_release release;
+    const WithoutGil free;
     simulate(scene, {folder}, options);
   }
   if (interrupted) throw py::error_already_set();

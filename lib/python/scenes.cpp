@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "body.h"
+#include "without_gil.h"
 
 namespace sinew::python {
 namespace {
@@ -31,13 +32,13 @@ FilledBody body_of_filling(Filling filling) {
 }
 
 FilledBody fill(const std::filesystem::path& mesh, const Values& values) {
-  const py::gil_scoped_release release;
+  const WithoutGil free;
   const Settings settings = settings_of_mesh(mesh, overrides_of(values));
   return body_of_filling(fill_body(settings, read_mesh(settings)));
 }
 
 FilledBody fill_scene(const Settings& scene) {
-  const py::gil_scoped_release release;
+  const WithoutGil free;
   return body_of_filling(fill_body(scene, read_mesh(scene)));
 }
 
@@ -46,12 +47,14 @@ FilledBody body_of_points(const GivenPoints& given, double radius, std::optional
   FilledBody body;
   body.points = points_of(given, "the points of a body");
   if (body.points.empty()) throw bad_input("a body needs particles", "give at least one point");
-  if (!all_finite(body.points)) throw bad_input("a point is not finite", "give numbers, in meters");
-  if (!(radius > 0 && std::isfinite(radius)))
+  for (const Vec3& point : body.points)
+    if (!is_computable(point))
+      throw bad_input("a point is too large or not finite", "give numbers, in meters");
+  if (!(radius > 0 && is_computable(radius)))
     throw bad_input("the radius is not above 0", "give it in meters");
   body.radius = radius;
   body.mass = mass.value_or(density * volume_per_particle(radius));
-  if (!(body.mass > 0 && std::isfinite(body.mass)))
+  if (!(body.mass > 0 && is_computable(body.mass)))
     throw bad_input("the mass is not above 0", "give it in kilograms");
   return body;
 }

@@ -11,6 +11,7 @@
 #include <sinew/scene/rig.h>
 #include "arrays.h"
 #include "body.h"
+#include "without_gil.h"
 
 namespace sinew::python {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 class Stepped {
  public:
   Stepped(const Settings& scene, const std::shared_ptr<FilledBody>& body, bool own_forces) {
-    const py::gil_scoped_release release;
+    const WithoutGil free;
     if (!body)
       begin(scene, prepare(scene), own_forces);
     else
@@ -28,7 +29,8 @@ class Stepped {
 
   /// Asks between steps whether Ctrl-C was pressed.
   void step(std::int64_t count) {
-    run([&, last = simulation_->steps() + count] { return simulation_->steps() < last; });
+    if (count < 0) throw bad_input("a number of steps is below 0", "give 0 or more");
+    run([&] { return count-- > 0; });
   }
   void run_until(double time) {
     constexpr double rounding = 1e-12;  // of times, which are numbers of steps
@@ -130,9 +132,11 @@ class Stepped {
     return key;
   }
 
+  [[noreturn]] static void refuse() {
+    throw bad_input("another thread steps this simulation", "wait until its step() has returned");
+  }
   void refuse_while_stepping() const {
-    if (stepping_)
-      throw bad_input("another thread steps this simulation", "wait until its step() has returned");
+    if (stepping_) refuse();
   }
 
   void begin(const Settings& scene, ReadyScene ready, bool own_forces) {
@@ -165,9 +169,11 @@ class Stepped {
     read();
   }
 
-  /// Until its end, of a block.
+  /// Until its end, of a block: other threads are refused.
   struct Busy {
-    explicit Busy(std::atomic<bool>& flag) : flag_(flag) { flag_ = true; }
+    explicit Busy(std::atomic<bool>& flag) : flag_(flag) {
+      if (flag_.exchange(true)) refuse();
+    }
     ~Busy() { flag_ = false; }
     Busy(const Busy&) = delete;
     Busy& operator=(const Busy&) = delete;
@@ -179,13 +185,13 @@ class Stepped {
   template <class Goes>
   void run(const Goes& goes) {
     using Clock = std::chrono::steady_clock;
-    refuse_while_stepping();
-    const py::gil_scoped_release release;
+    const bool hears_signals = is_main_thread();
     const Busy busy(stepping_);
-    for (auto asked = Clock::now(); goes();) {
+    const WithoutGil free;
+    for (auto asked = Clock::now(); !leaving && goes();) {
       simulation_->step();
       time_ = simulation_->time(), steps_ = simulation_->steps();
-      if (Clock::now() - asked < std::chrono::milliseconds(50)) continue;
+      if (!hears_signals || Clock::now() - asked < std::chrono::milliseconds(50)) continue;
       asked = Clock::now();
       const py::gil_scoped_acquire acquire;
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -219,6 +225,13 @@ class Stepped {
 };
 
 }  // namespace
+}  // namespace sinew::python
+
+template <>
+class pybind11::detail::type_caster<sinew::python::Stepped>
+    : public pybind11::detail::made_caster<sinew::python::Stepped> {};
+
+namespace sinew::python {
 
 void bind_simulation(py::module_& module) {
   using S = Stepped;

@@ -58,6 +58,64 @@ TEST_F(File, RefusesAFolderInItsPlace) {
   EXPECT_EQ(files(), 1u);
 }
 
+/// Links that somebody planted in a folder, also to a file that a second name has.
+TEST_F(File, WritesThroughNoLink) {
+  const auto link = [&](const char* name, bool soft) {
+    std::filesystem::remove(folder / name);
+    if (soft)
+      std::filesystem::create_symlink(folder / "mine", folder / name);
+    else
+      std::filesystem::create_hard_link(folder / "mine", folder / name);
+  };
+  put(folder / "mine", "precious");
+  for (const bool soft : {true, false}) {
+    for (const char* name : {"f", ".f.tmp", "g", ".g.tmp", "h"}) link(name, soft);
+    write_file(folder / "f", "new");
+    write_part(folder / "g", 0, "new");
+    link(".i.tmp", true);
+    EXPECT_THROW(write_part(folder / "i", 1, "new"), Error);
+    finish_parts(folder / "g", "");
+    GrowingFile(folder / "h", 0).add("new", 3);
+    EXPECT_EQ(read_file(folder / "mine"), "precious");
+    for (const char* name : {"f", "g", "h"}) {
+      EXPECT_EQ(read_file(folder / name), "new");
+      EXPECT_FALSE(std::filesystem::is_symlink(folder / name));
+    }
+  }
+  link("h", true);
+  EXPECT_THROW(GrowingFile(folder / "h", 3), Error);
+  for (const bool soft : {true, false}) {
+    link("lock", soft);
+    EXPECT_LT(open_lock(folder / "lock"), 0);
+  }
+  EXPECT_EQ(read_file(folder / "mine"), "precious");
+}
+
+TEST_F(File, FoldersWithinAreNoLinks) {
+  std::filesystem::create_directory(folder / "away");
+  std::filesystem::create_directory_symlink(folder / "away", folder / "link");
+  EXPECT_EQ(error_of([&] { create_inner_folder(folder / "link"); }).exit(), Exit::bad_input);
+  create_folder(folder / "link" / "below");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "away" / "below"));
+  put(folder / "file", "");
+  EXPECT_EQ(error_of([&] { create_folder(folder / "file"); }).exit(), Exit::not_written);
+}
+
+TEST_F(File, NamedByAnotherLiesBelowIt) {
+  std::filesystem::create_directories(folder / "model" / "maps");
+  put(folder / "model/maps/a.png", ""), put(folder / "secret.png", "");
+  std::filesystem::create_symlink("../secret.png", folder / "model/out.png");
+  std::filesystem::create_symlink("maps/a.png", folder / "model/in.png");
+  const auto below = [&](const std::string& name) { return file_below(folder / "model", name); };
+  EXPECT_EQ(below("maps/a.png"), folder / "model/maps/a.png");
+  EXPECT_EQ(below("./maps/../maps/a.png"), folder / "model/maps/a.png");
+  EXPECT_EQ(below("in.png"), folder / "model/in.png");
+  for (const std::string name :
+       {"", "../secret.png", "maps/../../secret.png", "out.png", "/", ".."})
+    EXPECT_EQ(below(name), "") << name;
+  EXPECT_EQ(below((folder / "model/maps/a.png").string()), "");
+}
+
 TEST_F(File, ReadsNoMoreThanTheLimit) {
   write_file(folder / "f", "12345");
   EXPECT_EQ(read_file(folder / "f", 5), "12345");

@@ -24,4 +24,15 @@ TEST(Shown, CutsAfter40LettersWhateverTheBytes) {
   EXPECT_EQ(shown(std::string(1000, '\x80')), '\'' + std::string(40, '?') + "...'");
 }
 
+TEST(Printable, HasNothingThatATerminalObeys) {
+  EXPECT_EQ(printable("a\x1b]0;b\x07\xC2\x9B\x9B\n\x7f \xC3\xBC"), "a?]0;b?????? \xC3\xBC");
+}
+
+TEST(ShellQuoted, IsOneWordOfPrintableLetters) {
+  EXPECT_EQ(shell_quoted("out/a_b-1.yaml"), "out/a_b-1.yaml");
+  EXPECT_EQ(shell_quoted(""), "''");
+  EXPECT_EQ(shell_quoted("it's; \xC3\xBC"), "'it'\\''s; \xC3\xBC'");
+  EXPECT_EQ(shell_quoted("a\x1b'\\\xFF"), "$'a\\x1b\\x27\\x5c\\xff'");
+}
+
 }  // namespace sinew::words_test

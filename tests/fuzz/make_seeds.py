@@ -198,6 +198,15 @@ def frd(kind):
     return (text + " 9999\n").encode()
 
 
+RECORD = b"""{
+  "program": "sinew", "version": "0.1.0", "command": ["sinew-simulate", "few.yaml"], "host": "here",
+  "status": "finished", "particles": 5, "frames": 3, "steps": 12, "time_step": 0.0035, "state_hash": "0123456789abcdef",
+  "seconds": {"filling": 0.01, "stepping": 1e-3}, "material": {"model": "paper", "radius": 0.25},
+  "arrays": [{"name": "bone", "unit": "", "series": ["particles", "\\u00e9"]}]
+}
+"""
+
+
 def run_files(binaries, put):
     """What runs of a few particles leave."""
     with tempfile.TemporaryDirectory() as temporary:
@@ -251,6 +260,7 @@ def main():
         put("frd", name, frd(kind))
     for name, text in SCENES.items():
         put("scene", name, text.encode())
+    put("record", "run", RECORD)
     run_files(binaries, put)
 
 

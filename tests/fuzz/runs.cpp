@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes, what a run leaves behind, and results of finite elements.
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include <sinew/core/hash.h>
+#include <sinew/core/json_extent.h>
 #include <sinew/io/calculix/frd.h>
 #include <sinew/io/checkpoint.h>
 #include <sinew/io/series.h>
@@ -74,6 +76,16 @@ void frd(std::string_view bytes) {
       require(step.displacement.size() == nodes &&
               (step.stress.empty() || step.stress.size() == nodes));
   });
+}
+
+/// run.json, which is read, changed and written again.
+void record(std::string_view bytes) {
+  constexpr std::size_t longest_indent = 40;
+  const auto json = own_json<nlohmann::ordered_json>(bytes);
+  if (json.is_discarded()) return;
+  const std::string text = json_text(json, 2);
+  require(text.size() <= (6 + longest_indent) * bytes.size() + 10);
+  require(own_json<nlohmann::ordered_json>(text) == json || text.find("\xEF\xBF\xBD") != text.npos);
 }
 
 void pvd(std::string_view bytes) {

@@ -18,6 +18,7 @@ void obj(std::string_view bytes);
 void off(std::string_view bytes);
 void ply(std::string_view bytes);
 void pvd(std::string_view bytes);
+void record(std::string_view bytes);
 void scene(std::string_view bytes);
 void stl(std::string_view bytes);
 void vtk(std::string_view bytes);

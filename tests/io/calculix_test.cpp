@@ -125,11 +125,56 @@ TEST_F(Calculix, DamagedResultsAreRefusedWithTheirLine) {
   expect_refused(good, " 9999", good.substr(0, good.find("    3C")) + " 9999",
                  {"nodes come after results"});
   expect_refused(good, row(30, {0, 1, 0}), " -1        30         inf 0.00000E+00 0.00000E+00\n",
-                 {"no place"});
+                 {"too large or not finite"});
+  expect_refused(good, "        10        20        30        40",
+                 "        10        20        20        40", {"a.frd:10", "same node twice"});
+  expect_refused(good, row(30, {0.3, 0, -3}), " -1        30 1.00000E-01\n", {"is no number"});
   expect_bad_input([&] { read(good.substr(0, good.rfind(" -3"))); }, {"ends within a block"});
   expect_bad_input([&] { read("nothing"); }, {"holds no elements"});
   expect_bad_input([&] { read(good.substr(0, good.find("    1PSTEP"))); },
                    {"no displacements", "*NODE FILE"});
+}
+
+/// Records are as wide as their values: with exponents of three digits more than twelve columns.
+TEST_F(Calculix, ValuesOfThreeDigitExponentsAreReadAsTheyArePrinted) {
+  const std::vector<double> samples = {0, 1, -2.5e-100, 3.25e-150, -4.5e-3, 1e99, -1e-310, -6.75e2};
+  const auto values = [&](int node, int component) {
+    return samples[static_cast<std::size_t>(5 * node + 3 * component) % samples.size()];
+  };
+  for (int turn = 0; turn < 2; ++turn) {
+    std::string text = tetrahedron();
+    text.resize(text.find("    1PSTEP"));
+    text += result("DISP", "1.00000E-100", [&](int node) {
+      return std::vector<double>{values(node, turn), values(node, turn + 1),
+                                 values(node, turn + 2)};
+    });
+    text += result("STRESS", "1.00000E-100", [&](int node) {
+      std::vector<double> stress;
+      for (int k = 0; k < 6; ++k) stress.push_back(values(node, turn + k));
+      return stress;
+    });
+    const FrdResult found = read(text + " 9999\n");
+    EXPECT_EQ(found.steps.at(0).time, 1e-100);
+    for (int node = 0; node < 4; ++node) {
+      for (int k = 0; k < 3; ++k)
+        EXPECT_EQ(found.steps[0].displacement[node][k], values(node + 1, turn + k));
+      for (int k = 0; k < 6; ++k)
+        EXPECT_EQ(found.steps[0].stress[node][k], values(node + 1, turn + k));
+    }
+  }
+}
+
+/// Many results of few nodes take memory as if they were of all.
+TEST_F(Calculix, EmptyResultsTakeNoMemory) {
+  std::string text = "    2C                         50000                                     1\n";
+  for (int node = 1; node <= 50'000; ++node) text += row(node, {1.0 * node, 0, 0});
+  text +=
+      " -3\n    3C                             1                                     1\n -1        "
+      " 1    3    0    1\n -2         1         2         3         4\n -3\n";
+  for (int k = 0; k < 2000; ++k)
+    text += "  100CL  101 " + columns(k).substr(1) +
+            "       50000                     0    1           1\n -4  DISP        4    1\n -3\n";
+  expect_bad_input([&] { read(text); }, {"many results of few nodes"});
 }
 
 Deck deck() {

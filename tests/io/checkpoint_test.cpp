@@ -134,19 +134,13 @@ TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   expect_refused(bytes_of(larger), {"run has 6 particles", "body now 5", "--force"});
 }
 
-TEST_F(CheckpointFile, OfVersion3HasNoFrictionAndNoGroups) {
-  constexpr std::size_t hash_size = 8, length_at = 16;
-  std::string bytes = bytes_of(sample());
-  const std::size_t newer = bytes.rfind("slidpair");
-  bytes.erase(newer, bytes.size() - hash_size - newer);
-  bytes[12] = 3;
-  const std::uint64_t length = bytes.size();
-  std::memcpy(bytes.data() + length_at, &length, sizeof length);
-  put(file(), resealed(bytes));
-  const Checkpoint read = read_checkpoint(file(), particles);
-  EXPECT_EQ(read.run, sample().run);
-  EXPECT_TRUE(read.state.sliding_pairs.empty());
-  EXPECT_TRUE(read.state.groups.empty());
+/// A run that goes on must not differ in its bits from one that never stopped.
+TEST_F(CheckpointFile, OfAnOlderVersionIsRefusedWithTheSinewThatWroteIt) {
+  Checkpoint older = sample();
+  older.run.program = "0.4.2";
+  std::string bytes = bytes_of(older);
+  bytes[12] = 5;
+  expect_refused(resealed(bytes), {"version 5, not 6", "sinew '0.4.2'", "--force"});
 }
 
 TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {

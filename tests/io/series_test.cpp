@@ -35,6 +35,18 @@ TEST_F(SeriesFiles, PvdHasOneRowPerTimeInItsShortestText) {
 )");
 }
 
+/// A run may have a million.
+TEST_F(SeriesFiles, APvdOfAnyRunCanBeReadAgain) {
+  constexpr std::size_t frames = 1'000'000;
+  std::vector<PvdRow> rows;
+  for (std::size_t i = 0; i <= frames; ++i)
+    rows.push_back({static_cast<double>(i), frame_name("particles", i)});
+  write_file(folder / "particles.pvd", pvd_text(rows));
+  const auto read = read_pvd(folder / "particles.pvd");
+  ASSERT_EQ(read.size(), rows.size());
+  EXPECT_EQ(read.back().file, "particles/particles_1000000.vtu");
+}
+
 TEST_F(SeriesFiles, RowsLeadToTheFramesTheyName) {
   const SyntheticRun run;
   Series series(folder, bones_format());

@@ -8,6 +8,8 @@
 #include <random>
 
 #include <sinew/core/triangles.h>
+#include <sinew/io/vtk/grids.h>
+#include "expect_error.h"
 #include "scratch.h"
 
 namespace sinew::vtk_mesh_test {
@@ -175,6 +177,31 @@ TEST_F(VtkMesh, LegacyImagesAreLevelSets) {
   const PolygonSoup field =
       soup("b.vtk", legacy(head + "FIELD FieldData 1\nd 1 27 float\n" + values));
   EXPECT_EQ(field.points, read.points);
+}
+
+TEST_F(VtkMesh, MayBeginWithAByteOrderMark) {
+  EXPECT_GT(soup("a.vti", "\xEF\xBB\xBF" + image(12, ball)).polygons.size(), 100u);
+}
+
+/// The lowest 32 bits of a type are not its number.
+TEST_F(VtkMesh, CellTypesOfMoreThan32BitsAreRefused) {
+  EXPECT_EQ(said("a.vtk", tetrahedra()), "");
+  EXPECT_NE(said("a.vtk", tetrahedra("4294967306\n10")), "");
+}
+
+/// Every edge of a checkerboard crosses its surface: few bytes, gigabytes of faces.
+TEST_F(VtkMesh, SurfacesOfNoiseAreRefusedBeforeTheyAreMade) {
+  LevelSet image;
+  image.size = {100, 100, 100};
+  image.bytes = 1'000'000;
+  image.values.reserve(1'000'000);
+  for (int z = 0; z < 100; ++z)
+    for (int y = 0; y < 100; ++y)
+      for (int x = 0; x < 100; ++x) image.values.push_back((x + y + z) % 2 == 0 ? 1 : -1);
+  const double raised = raised_memory([&] {
+    test::expect_bad_input([&] { zero_level(image); }, {"as of noise", "smooth"});
+  });
+  EXPECT_LT(raised, 20e6);
 }
 
 TEST_F(VtkMesh, ErrorsNameTheCure) {

@@ -16,6 +16,20 @@ double area_of(const std::vector<std::array<int, 3>>& triangles, const Points& p
   return sum;
 }
 
+TEST(Triangulate, CutsConvexPolygonsOfManyCornersInOneGo) {
+  constexpr int corners = 200'000;
+  Points points;
+  std::vector<int> polygon;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * pi * i / corners;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    polygon.push_back(i);
+  }
+  const auto triangles = triangulate(polygon, points);
+  EXPECT_EQ(triangles.size(), polygon.size() - 2);
+  EXPECT_NEAR(area_of(triangles, points), corners / 2.0 * std::sin(2 * pi / corners), 1e-9);
+}
+
 TEST(Triangulate, CutsAnLWithoutLeavingIt) {
   const Points points = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
   for (int first = 0; first < 6; ++first) {

@@ -2,6 +2,9 @@
 // Groups that change while a body moves.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+
 #include <sinew/core/parallel.h>
 #include <sinew/physics/hierarchy/dynamic_groups.h>
 
@@ -54,6 +57,25 @@ TEST(DynamicGroups, ABodyIsOneUntilAJointMoves) {
   const double free = options.sizes.joint_distance * std::sqrt(bar.body.binding.cross_section[1]);
   for (std::size_t i = 0; i < bar.rest.size(); ++i)
     EXPECT_TRUE(grouping.group[i] < 0 || std::abs(bar.rest[i].z() - joint) >= free) << i;
+}
+
+/// States from elsewhere, whose checksums are right.
+TEST(DynamicGroups, StatesOfOtherSkeletonsAreRefused) {
+  const Bar bar = swinging(MaterialModel::bonded);
+  Simulation simulation = begin(bar);
+  for (int k = 0; k < 20; ++k) simulation.step();
+  const SimulationState good = simulation.save();
+  const std::vector<std::function<void(RegroupingState&)>> forgeries = {
+      [](auto& state) { state.still_since.clear(); },
+      [](auto& state) { state.still_since.resize(1000, 1); },
+      [](auto& state) { state.still_since[0] = std::nan(""); },
+      [](auto& state) { state.times = -1; }, [](auto& state) { state.lost = std::nan(""); }};
+  for (const auto& forge : forgeries) {
+    SimulationState state = good;
+    forge(state.regrouping);
+    test::expect_bad_input([&] { begin(bar).restore(state); }, {"another skeleton"});
+  }
+  begin(bar).restore(good);
 }
 
 TEST(DynamicGroups, WhatHasComeBackJoinsAgain) {

@@ -3,6 +3,9 @@
 // comes to be, and the same bits however a relaxation is run.
 #include <sinew/physics/relaxation.h>
 
+#include <functional>
+#include <limits>
+
 #include <sinew/core/hash.h>
 #include <sinew/core/parallel.h>
 
@@ -148,6 +151,34 @@ TEST(Relaxation, SameBitsOnAnyNumberOfThreadsAndWhereverItIsResumed) {
     });
     EXPECT_EQ(one, several);
   }
+}
+
+/// States from elsewhere, whose checksums are right.
+TEST(Relaxation, RefusesStatesThatAreOnNoWayToRest) {
+  Machine machine = gripped();
+  const LoadSteps steps = two_moments();
+  Simulation simulation = machine.relaxing(steps);
+  for (int k = 0; k < 20; ++k) simulation.step();
+  const SimulationState good = simulation.save();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::function<void(RelaxationState&)>> forgeries = {
+      [](auto& state) { state.at_rest = -1; },
+      [](auto& state) { state.at_rest = std::int64_t{1} << 60; },
+      [](auto& state) { state.iterations = -1; },
+      [](auto& state) { state.iterations = std::int64_t{1} << 60; },
+      [](auto& state) { state.shortened = 0; },
+      [=](auto& state) { state.shortened = nan; },
+      [=](auto& state) { state.damping = nan; },
+      [](auto& state) { state.pushed = 1e200; },
+      [=](auto& state) { state.largest = nan; },
+      [=](auto& state) { state.applied = -1e300; },
+      [=](auto& state) { state.unbalanced = nan; }};
+  for (const auto& forge : forgeries) {
+    SimulationState state = good;
+    forge(state.relaxation);
+    test::expect_bad_input([&] { machine.relaxing(steps).restore(state); }, {"way to rest"});
+  }
+  machine.relaxing(steps).restore(good);
 }
 
 TEST(Relaxation, SinglePrecisionComesNear) {

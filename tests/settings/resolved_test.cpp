@@ -259,6 +259,27 @@ TEST(ResolvedScene, ReadsBackAsTheSameSettings) {
   }
 }
 
+/// A run that finishes must be measured by what it has written.
+TEST(ResolvedScene, OfManyKeysCanBeReadAgain) {
+  std::string text =
+      "body: {mesh: a.obj, radius: 0.01}\nskeleton:\n  bones:\n    - {name: b0, head: [0, 0, 0], "
+      "tail: "
+      "[0, 0, 1]}\n";
+  for (int bone = 1; bone < 60; ++bone)
+    text += "    - {name: b" + std::to_string(bone) + ", parent: b" + std::to_string(bone - 1) +
+            ", tail: [0, 0, " + std::to_string(bone + 1) + "]}\n";
+  text += "motion:\n  tracks:\n";
+  for (int bone = 0; bone < 60; ++bone) {
+    text += "    - bone: b" + std::to_string(bone) + "\n      keys:\n";
+    for (int key = 0; key < 1000; ++key)
+      text +=
+          "        - {time: " + std::to_string(key) + ", twist: " + std::to_string(key % 7) + "}\n";
+  }
+  const Settings settings = scene_from_text(text, "scene", "");
+  const std::string resolved = readable_scene(settings, "out/scene.yaml");
+  EXPECT_EQ(scene_from_text(resolved, "scene", "out").tracks[59].keys[999].twist, 999 % 7);
+}
+
 TEST(ResolvedScene, IsTheSameWhenResolvedAgain) {
   const TempFolder folder;
   const auto scene = folder.write("a.yaml", small_scene);

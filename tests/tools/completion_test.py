@@ -40,6 +40,13 @@ class Completion(unittest.TestCase):
         self.assertEqual(bash("sinew", "run", "--set", "material.young"), ["material.young_modulus="])
         self.assertEqual(bash("sinew", "fill", "--packing", "h"), ["hcp"])
 
+    def test_words_that_no_help_has_are_not_offered(self):
+        for command in ("run", "simulate", "render", "measure", "info"):
+            text = subprocess.run([BIN / "sinew", command, "--help"], capture_output=True, text=True, check=True).stdout
+            offered = bash("sinew", command, "--")
+            self.assertEqual(set(offered), set(re.findall(r"(--[\w-]+)", text)) & set(offered))
+            self.assertNotIn("--completions", offered)
+
     def test_lists_of_words_are_those_of_the_help(self):
         views = set(re.findall(r"(\w+) \(", subprocess.run([BIN / "sinew", "render", "--help"], capture_output=True,
                                                            text=True).stdout.split("--view")[1].split("--compare")[0]))
@@ -49,7 +56,12 @@ class Completion(unittest.TestCase):
         self.assertEqual(set(bash("sinew", "measure", "--arrays", "")), {*arrays, "all"})
         fill = subprocess.run([BIN / "sinew", "fill", "--help"], capture_output=True, text=True).stdout
         formats = re.findall(r"(\w+) \(", fill.split("--to FORMAT")[1].split("--verify")[0])
-        self.assertEqual(set(bash("sinew", "export", "--to", "")), set(formats))
+        self.assertEqual(set(bash("sinew", "fill", "--to", "")), set(formats))
+        self.assertEqual(set(bash("sinew", "export", "--to", "")), {*formats, "calculix"})
+        said = subprocess.run([BIN / "sinew", "fill", SOURCE / "data/meshes/box.obj", "--radius", "1", "--packing", "zzz"],
+                              capture_output=True, text=True).stderr
+        packings = said.split("use one of ")[1].strip().split(", ")
+        self.assertEqual(set(bash("sinew", "fill", "--packing", "")), set(packings))
         for script in ("_sinew", "sinew.fish"):
             for word in views | (set(arrays) if script == "_sinew" else set()):
                 self.assertRegex((SCRIPTS / script).read_text(), rf"\b{word}\b")

@@ -235,6 +235,10 @@ class OnLammps(SmallRun):
         self.assert_one_line(done, 4, "cannot be written: File too large", "free some space")
         self.assert_nothing_left()
 
+    def test_more_ranks_than_fit_into_memory_are_refused(self):
+        done = self.simulate(*ON_LAMMPS, 100_000, check=2)
+        self.assert_one_line(done, 2, "100000 ranks", "of memory", "--hosts")
+
     def test_hosts_are_those_of_a_file(self):
         hosts = self.folder / "hosts"
         hosts.write_text("localhost slots=2\n")

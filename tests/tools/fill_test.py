@@ -92,6 +92,13 @@ class Meshes(unittest.TestCase):
         path = mesh if isinstance(mesh, Path) else self.write(mesh)
         return self.run_sinew("fill", path, "-o", self.folder / "body.vtu", *words, check=check)
 
+    def test_the_same_filling_gives_the_same_bytes(self):
+        bodies = set()
+        for _ in range(2):
+            self.fill(SOURCE / "data/meshes/arm.ply", "--count", 2000)
+            bodies.add((self.folder / "body.vtu").read_bytes())
+        self.assertEqual(len(bodies), 1)
+
     def test_a_closed_mesh_agrees_with_cgal_at_every_site(self):
         for packing in ["fcc", "hcp"]:
             found = self.fill(sphere(), "--radius", 0.05, "--packing", packing, "--verify")

@@ -224,6 +224,87 @@ class Made(unittest.TestCase):
         self.assertGreater(busy, 10)
         self.assertEqual(simulation.steps, 3000)
 
+    def test_two_threads_that_step_take_turns(self):
+        simulation = sinew.Simulation(self.scene, self.body)
+        refused = []
+
+        def steps():
+            for _ in range(300):
+                try:
+                    simulation.step(1)
+                except sinew.Error:
+                    refused.append(1)
+        threads = [threading.Thread(target=steps) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(simulation.steps, 4 * 300 - len(refused))
+
+    def test_numbers_of_steps(self):
+        simulation = sinew.Simulation(self.scene, self.body)
+        simulation.step(0)
+        with self.assertRaisesRegex(sinew.Error, "below 0"):
+            simulation.step(-1)
+        simulation.step(2)
+        simulation.run_until(0)
+        self.assertEqual(simulation.steps, 2)
+        code = "import sinew, sys; exec(sys.argv[1]); simulation.step(2**63 - 1)"
+        child = subprocess.Popen([sys.executable, "-c", code, self.code_of_simulation() + "simulation.step(3); print(1, flush=True)"],
+                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        child.stdout.readline()
+        time.sleep(0.5)
+        self.assertIsNone(child.poll(), "it steps on")
+        child.kill()
+        child.communicate()
+
+    def code_of_simulation(self):
+        return (f"body = sinew.Body([[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0], [0, 0, 0.01]], 0.005)\n"
+                f"simulation = sinew.Simulation(sinew.make_scene({BAR!r}, body), body)\n")
+
+    def test_leaving_while_a_thread_steps(self):
+        code = ("import sinew, threading, time\n" + self.code_of_simulation() +
+                "thread = threading.Thread(target=simulation.step, args=(10**12,), daemon=True)\n"
+                "thread.start()\ntime.sleep(0.2)\nprint(simulation.steps > 0)\n")
+        for _ in range(5):
+            done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "True\n", ""))
+
+    def test_objects_that_nobody_has_made(self):
+        """Called in another process: what is tested is that it does not crash."""
+        code = """import sinew
+for kind in (sinew.Simulation, sinew.Body, sinew.Scene, sinew.Run, sinew._sinew.Frame):
+    thing = kind.__new__(kind)
+    for name in dir(kind):
+        if name.startswith("__") and name not in ("__len__", "__str__", "__getitem__", "__repr__"):
+            continue
+        for words in ((), (1,), ({},)):
+            try:
+                value = getattr(thing, name)
+                value(*words)
+            except (TypeError, RuntimeError, IndexError, ValueError):
+                pass
+for use in (lambda: sinew.Simulation(sinew.Scene.__new__(sinew.Scene)), lambda: sinew.fill(sinew.Scene.__new__(sinew.Scene)),
+            lambda: sinew.Simulation(sinew.make_scene({}), sinew.Body.__new__(sinew.Body))):
+    try:
+        use()
+    except (TypeError, RuntimeError, sinew.Error):
+        pass
+print("alive")
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)
+        self.assertEqual((done.returncode, done.stdout), (0, "alive\n"), done.stderr)
+
+    def test_numbers_that_cannot_be_computed_with(self):
+        for bad in (1e155, -1e155, 1e308, float("inf"), float("nan")):
+            with self.assertRaisesRegex(sinew.Error, "too large or not finite"):
+                sinew.Body([[0, 0, 0], [bad, 0, 0]], 0.01)
+            with self.assertRaisesRegex(sinew.Error, "too large or not finite|not above 0"):
+                sinew.Body([[0, 0, 0]], abs(bad))
+            with self.assertRaises(sinew.Error):
+                sinew.make_scene({**BAR, "skeleton": {"bones": [{"name": "low", "head": [bad, 0, 0], "tail": [0, 0, 1]}]}},
+                                 self.body)
+
     def test_simulations_leak_nothing(self):
         def used():
             gc.collect()

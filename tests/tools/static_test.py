@@ -67,6 +67,14 @@ class Static(unittest.TestCase):
         with open(self.out / name, newline="") as file:
             return list(csv.DictReader(file))
 
+    def test_the_reason_why_a_run_ended_before_its_first_frame_is_told(self):
+        weight = "supports:\n  - {name: clamp, facing: [0, 0, -1]}\nloads:\n  - {name: weight, gravity: [0, 0, -9.81]}"
+        for words, code, reason in ((["solver.wall_time=1e-9"], 130, "stopped; go on with"),
+                                    (["solver.iterations=1"], 3, "is not in equilibrium")):
+            for export in ("true", "false"):
+                done = self.run_scene(weight, "--force", "--set", f"output.export={export}", "--set", *words, check=code)
+                self.assertIn(reason, done.stderr)
+
     def test_a_cantilever_bends_as_timoshenko_says(self):
         width, length = 0.155563, 0.692965
         inertia, area = width ** 4 / 12, width ** 2

@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <utility>
 
-#include <sinew/core/error.h>
+#include <sinew/core/system.h>
 
 namespace sinew {
 
@@ -34,6 +34,7 @@ bool ignores_hangup() {
 void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = remember;
+  sigaction(SIGPIPE, &action, nullptr);  // who reads the progress has left
   // Both the kernel and the shell report a closed terminal: the second signal adds nothing.
   if (!ignores_hangup()) sigaction(SIGHUP, &action, nullptr);
   action.sa_flags = static_cast<int>(SA_RESETHAND);
@@ -48,6 +49,7 @@ namespace {
 volatile pid_t child_of_signals = 0;  // to which a signal handler forwards signals
 
 void pass_on(int signal, siginfo_t* origin, void*) {
+  requested = 1;
   // The terminal sends Ctrl-C to all programs in the foreground, and forwarding it would end the
   // child by a second signal; a hangup may be sent to this process alone.
   const bool received_already = signal != SIGHUP && origin->si_code == SI_KERNEL;
@@ -101,7 +103,7 @@ struct Child {
 };
 
 Child start_child(const std::string& command, const std::vector<std::string>& arguments) {
-  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const auto folder = this_program().parent_path();
   std::string program = (folder / ("sinew-" + command)).string();
   const Error cannot_start =
       bad_input(Place{program}, "cannot be started", "build or install all programs of sinew");
@@ -122,10 +124,23 @@ Child start_child(const std::string& command, const std::vector<std::string>& ar
 
 }  // namespace
 
+Exit exit_of(const std::string& command, const ChildEnd& end) {
+  for (const Exit known : {Exit::done, Exit::limit_passed, Exit::bad_input, Exit::unstable,
+                           Exit::not_written, Exit::interrupted})
+    if (end.exit == static_cast<int>(known)) return known;
+  for (const int stop : {SIGHUP, SIGINT, SIGTERM})
+    if (end.exit == 128 + stop) return Exit::interrupted;
+  throw bad_input("sinew-" + command + " ended with code " + std::to_string(end.exit) +
+                      (end.exit > 128 ? ", by signal " + std::to_string(end.exit - 128) : ""),
+                  "see whether memory ran out; run sinew " + command + " by itself");
+}
+
 ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments) {
   pass_signals_on();  // exec resets the handlers in the child
+  if (stop_requested()) return {static_cast<int>(Exit::interrupted), ""};
   const Child child = start_child(command, arguments);
   child_of_signals = child.process;
+  if (stop_requested()) ::kill(child.process, SIGTERM);  // since it was asked
   ChildEnd end;
   end.output = read_all(child.output);
   ::close(child.output);
@@ -162,6 +177,7 @@ void Helper::yield() { ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), 
 ChildEnd Helper::wait(const std::function<bool(const std::string& line)>& taken) {
   pass_signals_on();
   child_of_signals = process_;
+  if (stop_requested()) ::kill(process_, SIGTERM);
   ChildEnd end;
   std::FILE* lines = ::fdopen(output_, "r");
   std::string line;

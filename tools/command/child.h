@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <sinew/core/error.h>
+
 namespace sinew {
 
 // Requests to stop (SIGINT, SIGTERM, a closed terminal), checked where stopping leaves all files
@@ -30,8 +32,13 @@ struct ChildEnd {
   std::string output;  ///< its standard output
 };
 
+/// The exit code of sinew-COMMAND, interrupted where a signal to stop ended it. Throws bad input
+/// where it ended in no way that it should.
+Exit exit_of(const std::string& command, const ChildEnd& end);
+
 /// Runs sinew-COMMAND from the folder of this program and waits. SIGINT and SIGTERM are forwarded
-/// to it. Throws bad input where it cannot be started.
+/// to it; after one, no further child is started: it ends as interrupted. Throws bad input where it
+/// cannot be started.
 ChildEnd run_child(const std::string& command, const std::vector<std::string>& arguments);
 
 /// Another program of sinew at work beside this one, until this object ends.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command/command.h"
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include <sinew/core/parallel.h>
@@ -58,10 +61,12 @@ void declare_common(CLI::App& app, const About& about, Given& given) {
       .repeatable();
 }
 
+/// Of options that the help has.
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
 }
 
@@ -127,23 +132,32 @@ Exit parse_and_run(int argc, char** argv, const About& about,
 }
 
 int tell(Exit exit, std::string message) {
-  std::replace_if(
-      message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; },
-      ' ');  // names from files may contain control characters
-  std::fprintf(stderr, "%s %s\n", in_color(TextColor::red, "sinew:", stderr).c_str(),
-               message.c_str());
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  print_error(' ' + message, in_color(TextColor::red, "sinew:", stderr));
   return static_cast<int>(exit);
 }
 
 }  // namespace
 
+void open_standard_streams() {
+  int file = 0;
+  do {
+    file = ::open("/dev/null", O_RDWR);
+  } while (file >= 0 && file <= STDERR_FILENO);
+  if (file > STDERR_FILENO) ::close(file);
+}
+
 int run_reporting_errors(const std::function<Exit()>& job) {
+  open_standard_streams();
   // SIGXFSZ must not end the program: exceeding a file size limit is an error of the write.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return static_cast<int>(job());
   } catch (const Error& error) {
     return tell(error.exit(), error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return tell(Exit::bad_input, error.path1().string() + ": cannot be reached (" +
+                                     error.code().message() + "); check the path");
   } catch (const std::bad_alloc&) {
     return tell(Exit::bad_input, "not enough memory; use fewer particles or a larger machine");
   } catch (const std::exception& error) {
@@ -162,12 +176,11 @@ void say(const Common& common, const std::string& line) {
   if (common.quiet) return;
   const std::string word = "warning:";
   const std::size_t at = line.find(word);
-  const bool warns = at == 0 || line.starts_with("sinew: " + word);
-  const std::string shown_line = warns ? line.substr(0, at) +
-                                             in_color(TextColor::yellow, word, stderr) +
-                                             line.substr(at + word.size())
-                                       : line;
-  std::fprintf(stderr, "%s\n", shown_line.c_str());
+  if (at == 0 || line.starts_with("sinew: " + word))
+    print_error(line.substr(at + word.size()),
+                line.substr(0, at) + in_color(TextColor::yellow, word, stderr));
+  else
+    print_error(line);
 }
 
 }  // namespace sinew

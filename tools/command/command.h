@@ -38,6 +38,10 @@ int run_command(int argc, char** argv, const About& about,
                 const std::function<void(OptionList&)>& declare,
                 const std::function<Exit(const Common&)>& job);
 
+/// Opens /dev/null as standard input, output and error where they are closed, as daemons may leave
+/// them: files opened later would get their numbers, and messages would be written into them.
+void open_standard_streams();
+
 /// Runs `job` and returns its exit code, or that of the error it throws, reported as above.
 int run_reporting_errors(const std::function<Exit()>& job);
 

@@ -15,6 +15,8 @@
 #include <thread>
 
 #include <sinew/core/error.h>
+#include <sinew/core/file.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 
 namespace sinew {
@@ -29,9 +31,7 @@ constexpr std::array<std::array<const char*, 2>, 3> watch_over_hosts = {
      {"oob_tcp_keepalive_intvl", "2"},
      {"oob_tcp_keepalive_probes", "3"}}};
 
-fs::path program_of_engine() {
-  return fs::read_symlink("/proc/self/exe").parent_path() / "sinew-lammps";
-}
+fs::path program_of_engine() { return this_program().parent_path() / "sinew-lammps"; }
 
 bool is_in_path(const std::string& program) {
   const char* path = std::getenv("PATH");
@@ -69,14 +69,14 @@ std::vector<std::string> mpirun_words(const EngineOptions& options, int ranks,
 }
 
 /// In the child: nothing of the terminal reaches mpirun, which would end on Ctrl-C at once.
-[[noreturn]] void become(const std::vector<std::string>& words, int output, const fs::path& errors,
+[[noreturn]] void become(const std::vector<std::string>& words, int output, int errors,
                          pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(1);
   ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
-  ::dup2(::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
+  ::dup2(errors, STDERR_FILENO);
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -135,9 +135,11 @@ class EngineProcess {
     const auto words = mpirun_words(options_, ranks_, folder_.path);
     const pid_t parent = ::getpid();
     const bool piped = ::pipe2(pipe.data(), O_CLOEXEC) == 0;
+    const int complaints = create_file(errors());
     const pid_t child = piped ? ::fork() : -1;
-    if (child == 0) become(words, pipe[1], errors(), parent);
+    if (child == 0) become(words, pipe[1], complaints, parent);
     if (piped) ::close(pipe[1]);
+    if (complaints >= 0) ::close(complaints);
     if (child < 0) {
       if (piped) ::close(pipe[0]);
       throw bad_input("mpirun cannot be started", "free some memory");
@@ -239,6 +241,17 @@ void check_installed() {
     throw bad_input("mpirun is not installed", "install it (Debian: apt-get install openmpi-bin)");
 }
 
+/// Of ranks on this machine, each of which is a process with LAMMPS in it.
+void check_memory(int ranks, int cores) {
+  constexpr double bytes_per_rank = 60e6;
+  const double needed = ranks * bytes_per_rank, available = available_memory();
+  if (needed > available)
+    throw bad_input(std::to_string(ranks) + " ranks on this machine take about " +
+                        bytes_text(needed) + " of memory, " + bytes_text(available) + " are free",
+                    "give one for each of its " + std::to_string(cores) +
+                        " cores, or more machines with --hosts");
+}
+
 }  // namespace
 
 void declare(OptionList& list, EngineOptions& options) {
@@ -277,6 +290,7 @@ std::optional<Engine> engine_of(const EngineOptions& options) {
   check_installed();
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int ranks = options.ranks > 0 ? options.ranks : cores;
+  if (options.hosts.empty() && !is_managed()) check_memory(ranks, cores);
   const auto process = std::make_shared<EngineProcess>(options, ranks);
   return Engine{options.engine,
                 ranks,

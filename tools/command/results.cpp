@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command/results.h"
 
+#include <fmt/format.h>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -40,6 +41,20 @@ std::string plain(const Json& value, bool briefly) {
   return '[' + list + ']';
 }
 
+/// JSON escapes control characters but for 0x7f and those of 0x80 to 0x9f.
+std::string without_terminal_controls(const std::string& json) {
+  std::string text;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const bool pair = json[i] == '\xc2' && i + 1 < json.size();
+    const auto code = static_cast<unsigned char>(json[pair ? i + 1 : i]);
+    if (pair ? code < 0xa0 : code == 0x7f)
+      text += fmt::format("\\u{:04x}", code), i += pair ? 1 : 0;
+    else
+      text += json[i];
+  }
+  return text;
+}
+
 }  // namespace
 
 void Results::add(std::string key, Json value, std::string unit) {
@@ -72,14 +87,16 @@ std::string Results::text(bool briefly) const {
   if (in_words) {
     for (const std::string& line : headlines()) {
       const std::size_t key = line.find(": ") + 1;
-      text += in_color(TextColor::bold, line.substr(0, key), stdout) + line.substr(key) + '\n';
+      text += in_color(TextColor::bold, printable(line.substr(0, key)), stdout) +
+              printable(line.substr(key)) + '\n';
     }
     return text;
   }
   for (const Entry& one : entries_)
     if (one.in != In::headlines && one.in != In::object)
-      text += one.key + ": " + plain(one.value, briefly) +
-              (one.unit.empty() ? "" : ' ' + one.unit) + '\n';
+      text += printable(one.key + ": " + plain(one.value, briefly) +
+                        (one.unit.empty() ? "" : ' ' + one.unit)) +
+              '\n';
   return text;
 }
 
@@ -89,11 +106,16 @@ std::string Results::json() const {
     if (one.in == In::both || one.in == In::object) object[one.key] = one.value;
   const std::vector<std::string> words = headlines();
   if (!words.empty()) object["summary"] = words;
-  return object.dump(2, ' ', false, replace_wrong_bytes) + '\n';
+  return without_terminal_controls(object.dump(2, ' ', false, replace_wrong_bytes)) + '\n';
 }
 
 void Results::print(const Common& common) const {
   print_out(common.json ? json() : text(!common.verbose));
+}
+
+void print_error(std::string_view line, std::string_view colored) {
+  std::fprintf(stderr, "%.*s%s\n", static_cast<int>(colored.size()), colored.data(),
+               printable(line).c_str());
 }
 
 void print_out(std::string_view text) {

@@ -49,4 +49,7 @@ class Results {
 /// Writes to standard output and flushes it. Throws Error (not_written).
 void print_out(std::string_view text);
 
+/// Writes a line to standard error, printable() but for its `colored` beginning.
+void print_error(std::string_view line, std::string_view colored = "");
+
 }  // namespace sinew

@@ -20,7 +20,7 @@ manual() {  # PROGRAM PURPOSE
   gzip -9n "$pages/man1/$1.1"
 }
 manual sinew "bends elastic bodies with a skeleton"
-for program in new run check fill simulate measure render view export info; do
+for program in $("$build/bin/sinew" --help | awk '/^$/ { listed = 0 } listed { print $1 } /^Commands:/ { listed = 1 }'); do
   purpose=$("$build/bin/sinew-$program" --help | head -1)
   manual "sinew-$program" "$(sed -e 's/\.$//' -e 's/^./\L&/' <<< "$purpose")"
 done

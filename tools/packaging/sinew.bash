@@ -20,8 +20,12 @@ _sinew() {
       mapfile -t COMPREPLY < <(compgen -W "body surface particles section strain forces bonds bones" -- "$word")
       return ;;
     --engine) mapfile -t COMPREPLY < <(compgen -W "built-in lammps" -- "$word"); return ;;
-    --packing) mapfile -t COMPREPLY < <(compgen -W "fcc hcp" -- "$word"); return ;;
-    --to) mapfile -t COMPREPLY < <(compgen -W "vtu lammps dump xyz csv yade peridigm bgeo gltf" -- "$word"); return ;;
+    --packing) mapfile -t COMPREPLY < <(compgen -W "fcc hcp random conformal" -- "$word"); return ;;
+    --to)
+      local formats="vtu lammps dump xyz csv yade peridigm bgeo gltf"
+      [ "$command" = export ] && formats+=" calculix"
+      mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$word")
+      return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "m dm cm mm um in ft" -- "$word"); return ;;
   esac
   if [[ $word == -* ]]; then

@@ -17,6 +17,7 @@ complete -c sinew -n "__fish_seen_subcommand_from $commands; and string match -q
 complete -c sinew -l set -x -a '(__sinew_keys)'
 complete -c sinew -l view -x -a 'body surface particles section strain forces bonds bones'
 complete -c sinew -l unit -x -a 'm dm cm mm um in ft'
-complete -c sinew -l packing -x -a 'fcc hcp'
+complete -c sinew -l packing -x -a 'fcc hcp random conformal'
 complete -c sinew -l engine -x -a 'built-in lammps'
 complete -c sinew -l to -x -a 'vtu lammps dump xyz csv yade peridigm bgeo gltf'
+complete -c sinew -n '__fish_seen_subcommand_from export' -l to -x -a calculix

@@ -63,6 +63,14 @@ void write_all(int file, const fs::path& path, const void* bytes, std::size_t co
   }
 }
 
+/// Folders, pipes and devices stay.
+void refuse_special(const fs::path& path) {
+  std::error_code ignored;
+  const auto there = fs::status(path, ignored);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw not_written(path.string(), "is there, and no regular file", "choose another name");
+}
+
 fs::path temporary_of(const fs::path& path) {
   std::string name = ".";
   name += path.filename().string();
@@ -71,12 +79,43 @@ fs::path temporary_of(const fs::path& path) {
 
 }  // namespace
 
+int create_file(const fs::path& path) {
+  ::unlink(path.c_str());
+  return ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+int open_lock(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+  struct stat status;
+  if (file < 0 || (::fstat(file, &status) == 0 && status.st_nlink <= 1)) return file;
+  ::close(file);
+  errno = EMLINK;
+  return -1;
+}
+
+void create_folder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed)
+    throw not_written(folder.string(), "cannot be created (" + failed.message() + ")",
+                      "choose another place, which you may write to");
+}
+
+void create_inner_folder(const fs::path& folder) {
+  refuse_link(folder);
+  create_folder(folder);
+}
+
+void refuse_link(const fs::path& folder) {
+  std::error_code unreachable;
+  if (fs::is_symlink(fs::symlink_status(folder, unreachable)))
+    throw bad_input({folder.string()}, "is a link to another folder, whose files would be replaced",
+                    "remove the link, or choose another folder with -o");
+}
+
 NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(temporary_of(path_)) {
-  std::error_code ignored;
-  const auto there = fs::status(path_, ignored);
-  if (fs::exists(there) && !fs::is_regular_file(there))
-    throw not_written(path_.string(), "is there, and no regular file", "choose another name");
-  file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  refuse_special(path_);
+  file_ = create_file(temporary_);
   if (file_ < 0) throw refused(path_, errno);
 }
 
@@ -103,8 +142,9 @@ void NewFile::finish(Durability durability) {
 }
 
 void write_part(const fs::path& path, std::uint64_t place, std::string_view bytes) {
-  const int begins = place == 0 ? O_CREAT | O_TRUNC : 0;
-  const int file = ::open(temporary_of(path).c_str(), O_WRONLY | begins | O_CLOEXEC, 0666);
+  const fs::path temporary = temporary_of(path);
+  const int file = place == 0 ? create_file(temporary)
+                              : ::open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
   if (file < 0) throw refused(path, errno);
   try {
     write_all(file, path, bytes.data(), bytes.size(), place);
@@ -124,7 +164,9 @@ void finish_parts(const fs::path& path, std::string_view last) {
 }
 
 GrowingFile::GrowingFile(fs::path path, std::uint64_t kept) : path_(std::move(path)), size_(kept) {
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC, 0666);
+  refuse_special(path_);
+  file_ = kept == 0 ? create_file(path_)
+                    : ::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
   if (file_ < 0) throw refused(path_, errno);
   struct stat status;
   int error = ::fstat(file_, &status) != 0 ? errno : 0;
@@ -168,6 +210,18 @@ void write_file(const fs::path& path, std::string_view text) {
   NewFile file(path);
   file.write(text.data(), text.size());
   file.finish();
+}
+
+fs::path file_below(const fs::path& folder, const fs::path& name) {
+  const auto stays_below = [](const fs::path& path) {
+    return !path.empty() && path.is_relative() && *path.begin() != "..";
+  };
+  const fs::path below = name.lexically_normal();
+  if (!stays_below(below)) return {};
+  std::error_code failed;
+  const fs::path home = fs::weakly_canonical(folder.empty() ? "." : folder, failed);
+  const fs::path file = failed ? fs::path() : fs::weakly_canonical(home / below, failed);
+  return !failed && stays_below(file.lexically_relative(home)) ? folder / below : fs::path();
 }
 
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that appear atomically: written beside their place, checked and renamed, so that no reader
-// ever sees an incomplete one and a program that dies leaves the older one untouched.
+// ever sees an incomplete one and a program that dies leaves the older one untouched. All files and
+// folders that the library makes come from here: nothing is written through a link that stands in
+// the place of a file, or of a folder within one that sinew made.
 //
 //     NewFile file("run/summary.json");
 //     file.write(text.data(), text.size()), file.finish();
@@ -75,12 +77,35 @@ class GrowingFile {
   std::uint64_t size_ = 0;
 };
 
+/// Descriptor, to be closed by the caller, of a new empty file in the place of whatever file or
+/// link was there; -1, with errno, when it cannot be made.
+int create_file(const std::filesystem::path& path);
+
+/// Descriptor, to be closed by the caller, of a file to be locked, made when it is missing; -1,
+/// with errno, when it cannot be opened, is a link or has a second name.
+int open_lock(const std::filesystem::path& path);
+
+/// Creates a folder and those above it. Throws not written.
+void create_folder(const std::filesystem::path& folder);
+
+/// Creates a folder within one that sinew made. Throws not written, and bad input when a link to
+/// another folder is in its place.
+void create_inner_folder(const std::filesystem::path& folder);
+
+/// Throws bad input when the folder is a link, through which files elsewhere would be replaced.
+void refuse_link(const std::filesystem::path& folder);
+
 /// Waits until everything written so far to the folder's disk survives a power failure, as far as
 /// the file system can guarantee it. Throws not written.
 void sync_all(const std::filesystem::path& folder);
 
 /// Writes `text` as the file `path`. Throws not written.
 void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// The file `name` in `folder` or below it, where links do not lead elsewhere either; "" otherwise.
+/// Files that another file names are copied into results: one from elsewhere must not name others.
+std::filesystem::path file_below(const std::filesystem::path& folder,
+                                 const std::filesystem::path& name);
 
 /// The bytes of a regular file. Throws bad input when it cannot be read or is larger than `limit`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit = 64 << 20);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -14,13 +15,17 @@ namespace sinew {
 /// "0.2.0"
 std::string version();
 
+/// The file of this program, links followed. Without /proc, what it was started by.
+std::filesystem::path this_program();
+
 enum class Zone { utc, local };
 
 /// The present time as strftime's `format` says.
 std::string time_text(const char* format, Zone zone);
 
-/// Memory that can be allocated without swapping, bytes: the kernel's estimate (free pages and
-/// reclaimable caches), else the free pages alone.
+/// Memory that this process can allocate without swapping, bytes: the kernel's estimate (free pages
+/// and reclaimable caches), or less where a control group or the address space (ulimit -v) is
+/// limited.
 double available_memory();
 
 /// Memory that is freed stays with the program, for those that allocate megabytes again and again:

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstdio>
 #include <utility>
 
 namespace sinew {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t longest_word = 64;   // nobody misspells a longer one
 constexpr std::size_t longest_shown = 40;  // keeps messages on one line of a terminal
+constexpr std::string_view hexadecimal = "0123456789abcdef";
 
 std::string lower_case(std::string_view text) {
   std::string out(text);
@@ -94,6 +96,17 @@ std::string shown(std::string_view text) {
   return out + "'";
 }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t size = letter_size(text);
+    out += size > 0 ? text.substr(0, size) : "?";
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return out;
+}
+
 std::string listed(std::span<const std::string_view> words) {
   std::string out;
   for (const std::string_view word : words) {
@@ -108,8 +121,17 @@ std::string shell_quoted(std::string_view text) {
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=@%+-";
   if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos)
     return std::string(text);
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  const bool as_it_is = printable(text) == text;
+  std::string word = as_it_is ? "'" : "$'";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (as_it_is)
+      word += c == '\'' ? "'\\''" : std::string(1, c);
+    else if (byte < 0x20 || byte >= 0x7f || c == '\'' || c == '\\')
+      word += {'\\', 'x', hexadecimal[byte / 16], hexadecimal[byte % 16]};
+    else
+      word += c;
+  }
   return word + '\'';
 }
 
@@ -124,6 +146,16 @@ std::string number_text(double value) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
+}
+
+std::string bytes_text(double bytes) {
+  constexpr std::array units = {"B", "kB", "MB", "GB", "TB", "PB", "EB"};
+  double value = bytes;
+  std::size_t unit = 0;
+  for (; value >= 1000 && unit < 6; ++unit) value /= 1000;
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
+  return text.data();
 }
 
 std::string three_digits(double value) {

@@ -21,7 +21,12 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
 /// 'text' in quotes on one line, unprintable characters replaced, cut after 40 characters.
 std::string shown(std::string_view text);
 
-/// The text as a shell reads it as one word: in quotes where it needs them.
+/// The text with '?' for each byte that is of no printable UTF-8 letter: control characters too,
+/// which a terminal would obey.
+std::string printable(std::string_view text);
+
+/// The text as a shell reads it as one word: in quotes where it needs them, bytes that are not
+/// printable as numbers, as bash and zsh read them.
 std::string shell_quoted(std::string_view text);
 
 /// ASCII capital letters become lower case.
@@ -37,5 +42,8 @@ std::string number_text(double value);
 
 /// Three significant digits, for people: "0.00175".
 std::string three_digits(double value);
+
+/// "12.3 MB", of bytes.
+std::string bytes_text(double bytes);
 
 }  // namespace sinew

@@ -23,6 +23,10 @@ inline constexpr double pi = 3.14159265358979323846;
 inline double radians(double degrees) { return degrees * (pi / 180); }
 inline double degrees(double radians) { return radians * (180 / pi); }
 
+/// Whether a number from outside can be computed with: finite, and its square and cube as well.
+inline bool is_computable(double value) { return std::abs(value) < 1e100; }
+inline bool is_computable(const Vec3& value) { return (value.array().abs() < 1e100).all(); }
+
 /// An axis-aligned box; empty (low > high) until a point is added.
 using Box = Eigen::AlignedBox3d;
 

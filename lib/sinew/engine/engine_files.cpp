@@ -148,11 +148,7 @@ void refuse_unsupported(const Body& body) {
 
 void write_engine_run(const EngineFolder& folder, const EngineRun& run) {
   refuse_unsupported(run.body);
-  std::error_code failed;
-  fs::create_directories(folder.path, failed);
-  if (failed)
-    throw not_written(folder.path.string(), "cannot be created (" + failed.message() + ")",
-                      "choose a place you may write to");
+  create_inner_folder(folder.path);
   const Rows rows(run.body);
   EngineSetup setup;
   setup.particles = run.body.rest.size();

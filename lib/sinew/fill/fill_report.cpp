@@ -60,17 +60,6 @@ void add_verification(std::vector<ReportRow>& rows, const FillReport& report) {
   rows.push_back({"mismatches", report.verification->mismatches});
 }
 
-void add_seconds(std::vector<ReportRow>& rows, const FillReport& report) {
-  const auto add = [&](const char* key, double seconds) {
-    rows.push_back({key, std::round(seconds * 1e6) / 1e6, "s"});
-  };
-  add("seconds_reading", report.seconds_reading);
-  add("seconds_cleaning", report.seconds_cleaning);
-  add("seconds_inside", report.seconds_inside);
-  add("seconds_particles", report.seconds_particles);
-  if (report.verification) add("seconds_verifying", report.seconds_verifying);
-}
-
 /// Principal moments of inertia, kg m^2.
 Vec3 inertia(const Moments& moments, double mass) {
   return moments.principal() * (moments.volume > 0 ? mass / moments.volume : 0);
@@ -132,7 +121,19 @@ std::vector<ReportRow> rows_of(const FillReport& report) {
   add_defects(rows, report);
   add_cleaning(rows, report.cleaning);
   add_verification(rows, report);
-  add_seconds(rows, report);
+  return rows;
+}
+
+std::vector<ReportRow> times_of(const FillReport& report) {
+  std::vector<ReportRow> rows;
+  const auto add = [&](const char* key, double seconds) {
+    rows.push_back({key, std::round(seconds * 1e6) / 1e6, "s"});
+  };
+  add("seconds_reading", report.seconds_reading);
+  add("seconds_cleaning", report.seconds_cleaning);
+  add("seconds_inside", report.seconds_inside);
+  add("seconds_particles", report.seconds_particles);
+  if (report.verification) add("seconds_verifying", report.seconds_verifying);
   return rows;
 }
 

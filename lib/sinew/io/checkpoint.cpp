@@ -9,6 +9,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
-constexpr std::uint32_t format_version = 6, oldest_version = 3;
+constexpr std::uint32_t format_version = 6;
 constexpr std::size_t name_size = 8;
 // Bonds: 18 neighbors at rest, from both sides; branches of them; positions, velocities, order.
 constexpr std::size_t most_before_count = 4096;  // bytes
@@ -82,12 +83,6 @@ void walk(State& checkpoint, Transfer&& transfer) {
   transfer("merging", state.regrouping.lost);
   transfer("still", state.regrouping.still_since);
   transfer("pressed", state.pressed);
-}
-
-/// Sections that earlier versions lack, after all others.
-bool is_new(std::string_view name) {
-  return name == "slidpair" || name == "sliding" || name == "groups" || name == "grouping" ||
-         name == "regroups" || name == "merging" || name == "still" || name == "pressed";
 }
 
 template <class Value>
@@ -182,7 +177,6 @@ class Reader {
 
   template <class Value>
   void operator()(std::string_view name, Value& value) {
-    if (left() == 0 && is_new(name)) return;
     if constexpr (std::is_same_v<Value, bool>) {
       std::uint32_t flag = 0;
       fill(name, &flag, 1);
@@ -256,6 +250,15 @@ std::uint64_t hash_of(std::string_view bytes) {
   return hash.value();
 }
 
+Error of_another_format(std::uint32_t version, Reader sections) {
+  std::string program;
+  sections("program", program);
+  return bad_input("its format is of version " + std::to_string(version) + ", not " +
+                       std::to_string(format_version) + ": it was written by sinew " +
+                       shown(program),
+                   "go on with that sinew, or begin again with --force");
+}
+
 /// The sections of a complete file.
 std::string_view checked(std::string_view text) {
   if (text.size() < head_size + tail_size || text.substr(0, magic.size()) != magic)
@@ -264,9 +267,7 @@ std::string_view checked(std::string_view text) {
   if (head.one<std::uint32_t>() != byte_order_mark)
     throw no_checkpoint("it is of a machine with another byte order");
   const auto version = head.one<std::uint32_t>();
-  if (version < oldest_version || version > format_version)
-    throw no_checkpoint("its format is of version " + std::to_string(version) + ", not " +
-                        std::to_string(format_version));
+  if (version != format_version) throw of_another_format(version, Reader(text.substr(head_size)));
   if (head.one<std::uint64_t>() != text.size())
     throw no_checkpoint("it is truncated or too long: it has " + std::to_string(text.size()) +
                         " bytes");
@@ -301,7 +302,7 @@ void check_count_in(std::string_view head, std::uint64_t particles) {
   if (head.size() < head_size || !head.starts_with(magic)) return;
   Reader reader(head.substr(magic.size()));
   const auto mark = reader.one<std::uint32_t>(), version = reader.one<std::uint32_t>();
-  if (mark != byte_order_mark || version < oldest_version || version > format_version) return;
+  if (mark != byte_order_mark || version != format_version) return;
   [[maybe_unused]] const auto size = reader.one<std::uint64_t>();
   RunIdentity run;
   reader("program", run.program);
@@ -352,11 +353,7 @@ fs::path file_of(const fs::path& folder, int which) {
 }  // namespace
 
 void Checkpoints::write(const Checkpoint& checkpoint) {
-  std::error_code failed;
-  fs::create_directories(folder_, failed);
-  if (failed)
-    throw not_written(folder_.string(), "cannot be created (" + failed.message() + ")",
-                      "choose a place you may write to");
+  create_inner_folder(folder_);
   // The earlier frames must be on disk before the checkpoint is.
   sync_all(folder_);
   write_checkpoint(file_of(folder_, next_), checkpoint);

@@ -121,20 +121,12 @@ std::string frame_name(const std::string& series, std::size_t number) {
   return series + '/' + series + digits + ".vtu";
 }
 
-void refuse_link(const fs::path& folder) {
-  std::error_code unreachable;
-  if (fs::is_symlink(fs::symlink_status(folder, unreachable)))
-    throw bad_input({folder.string()}, "is a link to another folder, whose files would be replaced",
-                    "remove the link, or choose another folder with -o");
-}
-
 Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
     : folder_(std::move(folder)), format_(std::move(format)) {
   format_.finite = true;
-  refuse_link(folder_ / format_.series);
   keep(kept);
+  create_inner_folder(folder_ / format_.series);
   try {
-    fs::create_directories(folder_ / format_.series);
     // The PVD is truncated first: it never lists a file that does not exist.
     if (!rows_.empty()) write_pvd();
     remove_older(folder_, format_.series, rows_);

@@ -31,9 +31,6 @@ std::string pvd_text(const std::vector<PvdRow>& rows);
 /// "particles/particles_000012.vtu".
 std::string frame_name(const std::string& series, std::size_t number);
 
-/// Throws bad input where a folder of frames is a link: what it leads to is of no run.
-void refuse_link(const std::filesystem::path& folder);
-
 /// Writes a series frame by frame. A concurrent reader finds complete files only: each frame is
 /// written before the PVD lists it, and the PVD is replaced at most once a second.
 class Series {

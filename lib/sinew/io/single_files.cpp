@@ -68,7 +68,7 @@ Error no_body_file(const std::string& what) { return bad_input(what, "fill the b
 double shared(const std::vector<Column>& columns, const char* name) {
   const std::vector<double>& values = numbers(columns, name);
   const double value = values.front();
-  if (!(std::isfinite(value) && value > 0))
+  if (!(is_computable(value) && value > 0))
     throw no_body_file(std::string("the ") + name + " of a particle is not positive");
   if (!std::all_of(values.begin(), values.end(), [&](double other) { return other == value; }))
     throw no_body_file(std::string("particles differ in ") + name);
@@ -77,7 +77,7 @@ double shared(const std::vector<Column>& columns, const char* name) {
 
 void check_values(const std::vector<double>& values, const std::string& name) {
   for (const double value : values)
-    if (!(value >= 0) || !std::isfinite(value))
+    if (!(value >= 0) || !is_computable(value))
       throw no_body_file("the " + name + ' ' + std::to_string(value) + " of a particle is none");
 }
 
@@ -85,8 +85,8 @@ void check(const Dataset& data) {
   if (data.points.empty()) throw no_body_file("it holds no particles");
   if (data.kind != CellKind::vertex) throw no_body_file("its cells are not particles");
   if (!std::all_of(data.points.begin(), data.points.end(),
-                   [](const Vec3& p) { return p.allFinite(); }))
-    throw no_body_file("a coordinate is not finite");
+                   [](const Vec3& p) { return is_computable(p); }))
+    throw no_body_file("a coordinate is too large or not finite");
   if (integers(data.point_columns, "id") != vertex_cells(data.points.size()))
     throw no_body_file("its ids are not 0, 1, 2, ...");
 }

@@ -10,12 +10,15 @@
 #include <utility>
 
 #include <sinew/core/parallel.h>
+#include <sinew/core/system.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {
 
 constexpr std::size_t values_at_a_time = 1 << 15;
 constexpr std::uint64_t most_components = 1000;
+constexpr double unasked_bytes = 64 << 20;
 
 Error of_array(const XmlElement& array, const std::string& what) {
   return vtu_refused("array " + quoted(array.attribute("Name")) + ' ' + what);
@@ -61,8 +64,22 @@ std::optional<Decoded> from_words(std::string_view text, std::uint64_t count) {
   return numbers;
 }
 
+/// Few bytes may hold many values, compressed: their memory is asked for before they are inflated.
+void check_memory(const XmlElement& array, std::uint64_t count, std::size_t value_size) {
+  const double bytes =
+      static_cast<double>(count) * static_cast<double>(value_size + sizeof(double));
+  if (bytes < unasked_bytes) return;
+  const double available = available_memory();
+  if (bytes <= available / 2) return;
+  throw bad_input("array " + quoted(array.attribute("Name")) + " takes " + bytes_text(bytes) +
+                      " of memory, more than half of the " + bytes_text(available) +
+                      " that are free",
+                  "make the file smaller, or read it on a larger machine");
+}
+
 template <class Number>
 Decoded numbers_of(const XmlElement& array, const VtuArrays& file, std::uint64_t count) {
+  check_memory(array, count, sizeof(Number));
   const auto format = array.attribute("format");
   std::optional<Decoded> numbers;
   if (format == "appended") {
@@ -135,6 +152,12 @@ std::uint64_t VtuArrays::count(const XmlElement& element, const char* attribute)
     throw vtu_refused(std::string(attribute) + " is " + quoted(text) +
                       ", which its size cannot hold");
   return count;
+}
+
+std::size_t size_of_type(const XmlElement& array) {
+  std::size_t size = 0;
+  with_type(array, [&](auto zero) { size = sizeof zero; });
+  return size;
 }
 
 Column VtuArrays::column(const XmlElement& array, std::uint64_t rows) const {

@@ -30,6 +30,9 @@ struct VtuArrays {
   std::uint64_t count(const XmlElement& element, const char* attribute) const;
 };
 
+/// Bytes of one value of an array. Throws bad input where it is not numeric.
+std::size_t size_of_type(const XmlElement& array);
+
 /// The error bad input, with the cure.
 Error vtu_refused(const std::string& what);
 

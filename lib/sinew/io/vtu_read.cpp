@@ -78,8 +78,8 @@ void read_points(const VtuPiece& piece, std::uint64_t points, Dataset& data) {
   if (arrays.size() != 1) throw vtu_refused("its points are not one array");
   data.points = piece.arrays().points(*arrays.front(), points);
   for (std::size_t i = 0; i < data.points.size(); ++i)
-    if (!data.points[i].allFinite())
-      throw vtu_refused("point " + std::to_string(i) + " is not finite");
+    if (!is_computable(data.points[i]))
+      throw vtu_refused("point " + std::to_string(i) + " is too large or not finite");
 }
 
 void take_field(const XmlElement& array, const VtuArrays& arrays, Dataset& data) {

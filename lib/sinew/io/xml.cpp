@@ -16,9 +16,10 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t most_elements = 200'000;  // of about a hundred bytes each
-constexpr std::size_t longest_path = 1000;      // characters; bounds the depth, too
-constexpr std::size_t longest_tag = 1 << 20;    // bytes
+constexpr std::size_t few_elements = 200'000;  // of any size
+constexpr std::size_t bytes_per_element = 32;  // in the mean beyond; rows of a PVD have eighty
+constexpr std::size_t longest_path = 1000;     // characters; bounds the depth, too
+constexpr std::size_t longest_tag = 1 << 20;   // bytes
 
 Error no_xml(const std::string& what) { return bad_input(what, "write the file again"); }
 
@@ -45,7 +46,8 @@ std::size_t length_of_tag(std::string_view xml) {
 
 class Elements {
  public:
-  Elements(std::string_view xml, std::string_view last) : left_(xml), last_(last) {
+  Elements(std::string_view xml, std::string_view last)
+      : left_(xml), last_(last), max_elements_(few_elements + xml.size() / bytes_per_element) {
     if (!parser_) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), &Elements::begun, &Elements::ended);
@@ -86,8 +88,10 @@ class Elements {
   }
 
   void begin(const char* name, const char** attributes) {
-    if (elements_.size() == most_elements)
-      throw bad_input("it has more than 200000 elements", "use a file of fewer");
+    if (elements_.size() == max_elements_)
+      throw bad_input(
+          "it has more than " + std::to_string(max_elements_) + " elements, few bytes each",
+          "use a file of fewer");
     if (!path_.empty()) path_ += '/';
     path_ += name;
     if (path_.size() > longest_path) throw no_xml("its elements are too deep");
@@ -118,6 +122,7 @@ class Elements {
 
   Parser parser_{XML_ParserCreate("UTF-8"), &XML_ParserFree};
   std::string_view left_, last_;
+  std::size_t max_elements_;
   std::string path_;
   std::vector<XmlElement> elements_;
   bool open_ = false;     ///< the last tag read begins the last element read

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <unordered_map>
 
+#include <sinew/core/file.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/readers/mesh_readers.h>
@@ -126,11 +127,12 @@ SurfaceLook look_of(const BodyOptions& body, const Triangles& surface,
   for (Vec3& normal : look.normals) normal = placement_of(body).turn * normal;
   for (const auto& [a, b, c] : surface.faces)
     add_face({surface.points[a], surface.points[b], surface.points[c]}, polygons, file, look);
-  for (std::string& library : look.libraries) {
-    library = (path.parent_path() / library).string();
+  for (std::string& library : look.libraries)
+    library = file_below(path.parent_path(), library).string();
+  std::erase(look.libraries, "");
+  for (const std::string& library : look.libraries)
     for (SurfaceLook::Material& material : read_mtl(library))
       look.materials.push_back(std::move(material));
-  }
   return look;
 }
 

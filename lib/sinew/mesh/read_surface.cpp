@@ -29,7 +29,7 @@ Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more) 
 
 void place(PolygonSoup& soup, const BodyOptions& body) {
   const Placement placement = placement_of(body);
-  if (!(placement.scale > 0) || !std::isfinite(placement.scale))
+  if (!(placement.scale > 0) || !is_computable(placement.scale))
     throw bad_input("the scale is " + number_text(body.scale), "give a number above 0");
   if (placement.is_identity()) return;
   for (Vec3& point : soup.points) point = placement(point);

@@ -44,6 +44,17 @@ void Simulation::set_grouping(std::vector<std::int32_t> group) {
       *body_, std::move(group), dynamic_ ? dynamic_->options().sizes.cubic_from() : none_cubic));
 }
 
+void Simulation::restore_grouping(const SimulationState& state) {
+  const RegroupingState& groups = state.regrouping;
+  const bool known = std::all_of(groups.still_since.begin(), groups.still_since.end(),
+                                 [](double since) { return is_computable(since); });
+  if (groups.still_since.size() != body_->skeleton.size() || !known || groups.times < 0 ||
+      !is_computable(groups.lost))
+    throw not_a_state("its groups are of another skeleton");
+  set_grouping(state.grouping);
+  regrouping_ = groups;
+}
+
 /// The particles go on in these groups, from where they are.
 void Simulation::move_in(std::vector<std::int32_t> group) {
   set_grouping(std::move(group));

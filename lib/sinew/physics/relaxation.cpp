@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/physics/stepper.h>
 #include <sinew/physics/world/world.h>
 
 namespace sinew {
@@ -159,6 +161,15 @@ void Relaxation::give_up() const {
                                 "output.interval shorter"));
 }
 
-void Relaxation::restore(const RelaxationState& state) { now_ = state; }
+void Relaxation::restore(const RelaxationState& state) {
+  const bool counted = state.at_rest >= 0 && state.at_rest <= steps_.count &&
+                       state.iterations >= 0 && state.iterations <= std::numeric_limits<int>::max();
+  const bool known = is_computable(state.damping) && is_computable(state.pushed) &&
+                     is_computable(state.largest) && is_computable(state.applied) &&
+                     is_computable(state.unbalanced);
+  if (!counted || !known || !(state.shortened > 0 && state.shortened <= 1))
+    throw not_a_state("its way to rest is none");
+  now_ = state;
+}
 
 }  // namespace sinew

@@ -20,10 +20,10 @@ constexpr std::size_t particles_per_sum = 512;
 
 Particles& checked(Particles& particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
-    if (!particles.position(i).allFinite())
-      throw bad_input(
-          "particle " + std::to_string(particles.id[i]) + " has a position that is not finite",
-          "fill the body again");
+    if (!is_computable(particles.position(i)))
+      throw bad_input("particle " + std::to_string(particles.id[i]) +
+                          " has a position that is too large or not finite",
+                      "fill the body again");
   return particles;
 }
 
@@ -305,7 +305,7 @@ void Simulation::restore(const SimulationState& state) {
       !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
   if (relaxation_) relaxation_->restore(state.relaxation);
-  if (dynamic_) set_grouping(state.grouping), regrouping_ = state.regrouping;
+  if (dynamic_) restore_grouping(state);
   const double last =
       relaxation_ ? relaxation_->step() : plan_.step(std::max<std::int64_t>(0, state.steps - 1));
   set_step(last);

@@ -126,6 +126,7 @@ class Simulation {
   void check_groups();
   void regroup(std::span<const HeldCell> held, bool must);
   void set_grouping(std::vector<std::int32_t> group);
+  void restore_grouping(const SimulationState& state);
   void move_in(std::vector<std::int32_t> group);
   void halt();
   const Pose& pose_of_stepper() const;

@@ -276,8 +276,8 @@ void check(const std::vector<Joint>& joints) {
     if (joint.parent < no_bone || joint.parent >= static_cast<int>(i))
       throw bad_input("joint " + std::to_string(i) + " does not come after its parent",
                       "list parents first");
-    if (!joint.place.allFinite() || (joint.end && !joint.end->allFinite()))
-      throw bad_input("the place of joint " + std::to_string(i) + " is not finite",
+    if (!is_computable(joint.place) || (joint.end && !is_computable(*joint.end)))
+      throw bad_input("the place of joint " + std::to_string(i) + " is too large or not finite",
                       "export the skeleton again");
   }
 }

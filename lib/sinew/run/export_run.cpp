@@ -55,14 +55,6 @@ std::size_t broken_bonds(const RunFrame& frame) {
   return std::accumulate(of_each.begin(), of_each.end(), std::size_t{0}) / 2;
 }
 
-void create_folder(const std::filesystem::path& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed)
-    throw not_written(folder.string(), "cannot be created: " + failed.message(),
-                      "choose a place you may write to");
-}
-
 std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame,
                                std::string_view extension) {
   const std::string digits = std::to_string(frame);

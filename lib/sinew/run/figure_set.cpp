@@ -35,10 +35,9 @@ void check_times(const std::vector<double>& times, const RunFiles& run) {
 void check_memory(int width, int height, double available) {
   const double needed = memory_of_picture(width, height);
   if (needed <= available) return;
-  const auto text = [](double bytes) { return bytes_text(static_cast<std::uint64_t>(bytes)); };
   throw bad_input("pictures of " + std::to_string(width) + " x " + std::to_string(height) +
-                      " pixels need about " + text(needed) + " of memory, " + text(available) +
-                      " are free",
+                      " pixels need about " + bytes_text(needed) + " of memory, " +
+                      bytes_text(available) + " are free",
                   "choose a smaller --width and --height");
 }
 

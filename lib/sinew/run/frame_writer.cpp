@@ -387,11 +387,13 @@ void FrameWriter::close() {
   }
   if (!export_) return;
   export_->close();
+  for (const char* name : {"surface.obj", "surface.pc2"}) checksums_->add(name);
+  if (written_ == 0) return;  // nothing moves
   std::vector<double> times;
   for (const PvdRow& row : skins_.rows()) times.push_back(row.time);
   write_moving_surface(folder_ / "surface.glb", surface_.faces, folder_ / "surface.pc2", times,
                        look_);
-  for (const char* name : {"surface.obj", "surface.pc2", "surface.glb"}) checksums_->add(name);
+  checksums_->add("surface.glb");
 }
 
 }  // namespace sinew

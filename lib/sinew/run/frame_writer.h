@@ -70,6 +70,9 @@ class FrameWriter {
   /// Waits until all frames are written and named by the PVDs. Throws not written.
   void close();
 
+  /// Nothing where the scene has no probes.
+  const ProbeTable* probes() const { return probe_table_ ? &*probe_table_ : nullptr; }
+
   /// How long add() has waited for earlier frames to be written, s.
   double waited() const { return writer_.waited(); }
 

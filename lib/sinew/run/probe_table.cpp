@@ -64,7 +64,10 @@ void ProbeTable::add(double time, const Points& positions, const Points& rest,
     add_cells(place, rows);
     add_cells(place - weighted(probe, rest), rows);
     for (const auto& tensors : {values.strain, values.stress})
-      for (const double value : mean_tensor(probe, tensors)) add_cell(value, rows);
+      for (const double value : mean_tensor(probe, tensors)) {
+        if (std::isnan(value)) unknown_.insert(probe.name);
+        add_cell(value, rows);
+      }
     add_cells(force_on(probe, values.force), rows);
     rows += '\n';
   }

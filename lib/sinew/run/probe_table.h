@@ -7,7 +7,9 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <sinew/io/frame_table.h>
@@ -36,9 +38,13 @@ class ProbeTable {
   void add(double time, const Points& positions, const Points& rest, const ProbedValues& values);
   void close() { table_.close(); }  ///< throws not written
 
+  /// Names of those of which none of the particles had a strain in some frame.
+  const std::set<std::string>& unknown() const { return unknown_; }
+
  private:
   std::vector<Probe> probes_;
   FrameTable table_;
+  std::set<std::string> unknown_;
 };
 
 }  // namespace sinew

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include <sinew/core/json_extent.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
@@ -118,7 +119,7 @@ std::string with_unit(double value, const char* unit) {
 std::string shown_value(const nlohmann::ordered_json& value) {
   if (value.is_number_float()) return three_digits(value.get<double>());
   if (value.is_string()) return value.get<std::string>();
-  if (!value.is_array()) return value.dump();
+  if (!value.is_array()) return json_text(value);
   std::string list;
   for (const auto& item : value) (list += list.empty() ? "" : ", ") += shown_value(item);
   return list;
@@ -127,13 +128,14 @@ std::string shown_value(const nlohmann::ordered_json& value) {
 /// The report of the fill, from body.vtu.
 FactGroup fill_facts(const std::string& body_meta) {
   FactGroup group{"Filling", {}};
-  const auto meta = nlohmann::ordered_json::parse(body_meta, nullptr, false);
+  const auto meta = own_json<nlohmann::ordered_json>(body_meta);
   if (!meta.is_object() || !meta.contains("fill")) return group;
-  const auto units = meta.value("fill_units", nlohmann::ordered_json::object());
+  const auto units = meta.contains("fill_units") ? meta["fill_units"] : nlohmann::ordered_json();
   for (const auto& [key, value] : meta["fill"].items()) {
     std::string name = key;
     std::replace(name.begin(), name.end(), '_', ' ');
-    const std::string unit = units.value(key, "");
+    const bool known = units.is_object() && units.contains(key) && units[key].is_string();
+    const std::string unit = known ? units[key].get<std::string>() : "";
     group.facts.push_back({name, shown_value(value) + (unit.empty() ? "" : ' ' + unit)});
   }
   return group;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <sinew/core/error.h>
+#include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/io/series.h>
 
@@ -84,10 +85,7 @@ fs::path create(const RunFolder& folder) {
   for (fs::path path = fs::absolute(folder.path / "").parent_path();
        !fs::exists(path, failed) && path.has_relative_path(); path = path.parent_path())
     created = path;
-  fs::create_directories(folder.path, failed);
-  if (failed)
-    throw not_written(folder.path.string(), "cannot be created (" + failed.message() + ")",
-                      "choose another folder with -o");
+  create_folder(folder.path);
   return created;
 }
 
@@ -191,7 +189,7 @@ FolderLock::FolderLock(const RunFolder& folder, fs::path created)
     return not_written(path.string(), "cannot be made (" + why + ")",
                        "make space, or choose a folder you may write to with -o");
   };
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+  file_ = open_lock(path);
   if (file_ < 0) throw cannot_be_made();
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
     const std::string holder = holder_of(file_);

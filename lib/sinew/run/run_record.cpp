@@ -11,6 +11,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
+#include <sinew/core/json_extent.h>
 #include <sinew/core/system.h>
 
 namespace sinew {
@@ -45,14 +46,14 @@ bool is_record(const Json& record) {
 }  // namespace
 
 Json read_record(const RunFolder& folder) {
-  auto record = Json::parse(read_file(folder.record()), nullptr, false);
+  auto record = own_json<Json>(read_file(folder.record()));
   if (is_record(record)) return record;
   throw bad_input(Place{folder.record().string()}, "is not the record of a run",
                   "run the scene again with --force");
 }
 
 void write_record(const RunFolder& folder, const Json& record) {
-  const std::string text = record.dump(2) + '\n';
+  const std::string text = json_text(record, 2) + '\n';
   NewFile file(folder.record());
   file.write(text.data(), text.size());
   file.finish(Durability::synced);

@@ -7,6 +7,7 @@
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/file.h>
+#include <sinew/core/json_extent.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/paraview/view_script.h>
@@ -37,11 +38,9 @@ bool may_begin(const RunFolder& folder, const SimulateOptions& options) {
   if (!options.resume)
     throw bad_input(Place{folder.path.string()}, "holds a run already",
                     "replace it with --force, or choose another folder with -o");
-  if (status == "finished") {
+  if (status == "finished")
     say(options, "the run in " + folder.path.string() + " is finished already");
-    return false;
-  }
-  return true;
+  return status != "finished";
 }
 
 /// How the run advances through time.
@@ -60,7 +59,12 @@ struct Schedule {
 
   /// Frames up to a state; one that lies after the end is not of this run.
   int frames_until(const SimulationState& state) const {
-    if (relaxes) return static_cast<int>(state.relaxation.at_rest);
+    const std::int64_t moments = state.relaxation.at_rest;
+    if (relaxes && (moments < 0 || moments > frames.count + 1))
+      throw bad_input("the checkpoint is of load step " + std::to_string(moments) +
+                          ", and the run ends with " + std::to_string(frames.count),
+                      "begin again with --force");
+    if (relaxes) return static_cast<int>(moments);
     const std::int64_t last = plan.steps_until(frames.count);
     if (state.steps > last)
       throw bad_input("the checkpoint is of step " + std::to_string(state.steps) +
@@ -171,8 +175,7 @@ class Run {
     } catch (const Error& error) {
       log_.frames(writer_->written());
       if (error.exit() != Exit::unstable) throw;
-      if (is_unfinished()) save();
-      close();
+      close_after(error);
       log_.frames(writer_->written());
       if (is_unfinished()) throw;
       write_last_state(*simulation_, folder_.blowup());
@@ -181,6 +184,21 @@ class Run {
     } catch (...) {
       log_.frames(writer_->written());
       throw;
+    }
+  }
+
+  void warn(const std::string& what) const {
+    if (options_.warning) options_.warning(what);
+  }
+
+  /// The reason why the run ends is not lost where closing fails as well.
+  void close_after(const Error& reason) {
+    try {
+      if (is_unfinished()) save();
+      close();
+    } catch (const std::exception& failed) {
+      warn(failed.what());
+      throw reason;
     }
   }
 
@@ -272,6 +290,10 @@ class Run {
       log_.describe(*elsewhere_);
     }
     writer_->close();
+    if (const ProbeTable* probes = writer_->probes())
+      for (const std::string& name : probes->unknown())
+        warn("probe " + shown(name) + " has no strain in some frames: its particles have too few " +
+             "neighbors; place it where the body is thicker");
     if (writer_->written() > 0) write_state();
     log_.spend("writing", watch.lap());
   }
@@ -283,7 +305,7 @@ class Run {
     } catch (const std::exception& error) {
       const auto* known = dynamic_cast<const Error*>(&error);
       if (known != nullptr && known->exit() == Exit::not_written) throw;
-      say(options_, "warning: view.pvsm is not written: " + std::string(error.what()));
+      warn("view.pvsm is not written: " + std::string(error.what()));
     }
   }
 
@@ -325,23 +347,6 @@ std::optional<SimulationState> state_to_resume(const RunFolder& folder,
   return state;
 }
 
-/// "skeleton.fit: scale 0.01, rotation [90, 0, 0], offset [0, 0, 1]"
-std::string fit_text(const SkeletonOptions& fitted) {
-  const auto list = [](const Vec3& v) {
-    return '[' + three_digits(v.x()) + ", " + three_digits(v.y()) + ", " + three_digits(v.z()) +
-           ']';
-  };
-  return "skeleton.fit: scale " + three_digits(fitted.scale) + ", rotation " +
-         list(fitted.rotation) + " degrees, offset " + list(fitted.offset) + " m";
-}
-
-/// Of the fill, as body.vtu keeps them.
-std::vector<std::string> fill_warnings(const BodyFile& body) {
-  const auto meta = nlohmann::json::parse(body.meta, nullptr, false);
-  if (!meta.is_object() || !meta.contains("fill")) return {};
-  return meta["fill"].value("warnings", std::vector<std::string>());
-}
-
 void say_what_is_doubtful(const ReadyScene& ready, const SimulateOptions& options) {
   const Setup& setup = ready.setup;
   if (const auto& relaxed = setup.load_steps)
@@ -372,7 +377,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
     say(options, "taking over from " + lock.left_by() + ", which ended without a word");
   if (!may_begin(folder, options)) return {Exit::done, true, ""};
 
-  const std::string resolved = resolved_scene(scene, folder.path);
+  const std::string resolved = readable_scene(scene, folder.scene());
   if (options.resume && folder.used()) check_same_scene(folder, resolved);
   ReadyScene ready = prepare_in(scene, folder);
   RunCheckpoints checkpoints(folder, scene);
@@ -388,7 +393,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   say_what_is_doubtful(ready, options);
   if (options.before_stepping) options.before_stepping();
   const Exit exit = Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
-  return {exit, false, log.record().dump()};
+  return {exit, false, json_text(log.record())};
 }
 
 }  // namespace sinew

@@ -8,6 +8,7 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
+#include <sinew/core/json_extent.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/random.h>
@@ -60,10 +61,11 @@ bool is_scene(const std::filesystem::path& path) {
 
 void refuse_mesh_as_scene(const std::string& path) {
   if (names_mesh(path, formats_of_io))
-    throw bad_input({path}, "this is a mesh, not a scene", "make a scene of it: sinew new " + path);
+    throw bad_input({path}, "this is a mesh, not a scene",
+                    "make a scene of it: sinew new " + shell_quoted(path));
   if (lower(std::filesystem::path(path).extension().string()) == ".bvh")
     throw bad_input({path}, "this is a rig, not a scene",
-                    "make a scene of it and a mesh: sinew new MESH " + path);
+                    "make a scene of it and a mesh: sinew new MESH " + shell_quoted(path));
 }
 
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs,
@@ -196,8 +198,18 @@ BodyFile body_file(Filling filling, const std::string& origin) {
   body.component = std::move(filling.component);
   if (!filling.share.empty()) body.share = std::move(filling.share);
   if (!filling.stiffness.empty()) body.stiffness = std::move(filling.stiffness);
-  body.meta = meta.dump();
+  body.meta = json_text(meta);
   return body;
+}
+
+std::vector<std::string> fill_warnings(const BodyFile& body) {
+  const auto meta = own_json<nlohmann::json>(body.meta);
+  const auto place = nlohmann::json::json_pointer("/fill/warnings");
+  std::vector<std::string> warnings;
+  if (!meta.is_object() || !meta.contains(place)) return warnings;
+  for (const auto& one : meta[place])
+    if (one.is_string()) warnings.push_back(one);
+  return warnings;
 }
 
 std::string origin_of(const Settings& settings) {
@@ -228,8 +240,8 @@ std::optional<BodyFile> body_of_scene(const std::filesystem::path& path,
   if (!std::filesystem::exists(path, unreachable)) return std::nullopt;
   try {
     BodyFile body = read_body(path);
-    const auto meta = nlohmann::json::parse(body.meta, nullptr, false);
-    if (meta.is_object() && meta.value("origin", "") == origin) return body;
+    const auto meta = own_json<nlohmann::json>(body.meta);
+    if (meta.is_object() && meta.contains("origin") && meta["origin"] == origin) return body;
   } catch (const Error&) {
     // Not a body, or an incomplete one: it is filled again.
   }

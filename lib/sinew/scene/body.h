@@ -62,6 +62,9 @@ nlohmann::ordered_json json_of(const ReportValue& value);
 /// The contents of body.vtu for a filling; `origin` identifies its source.
 BodyFile body_file(Filling filling, const std::string& origin = "");
 
+/// Warnings of the filling that body.vtu keeps.
+std::vector<std::string> fill_warnings(const BodyFile& body);
+
 /// A text that is equal for the same mesh file filled with the same settings.
 std::string origin_of(const Settings& settings);
 

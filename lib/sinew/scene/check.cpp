@@ -118,20 +118,10 @@ void check_space(const fs::path& folder, const Needs& needs, std::uint64_t freed
   const std::uint64_t space = free_space(folder);
   const std::uint64_t available = space > UINT64_MAX - freed ? space : space + freed;
   if (needs.disk <= available) return;
-  throw not_written(
-      folder.string(),
-      "the run needs about " + bytes_text(needs.disk) + ", the disk has " + bytes_text(available),
-      "make space, choose another folder with -o, or make output.interval longer");
-}
-
-std::string bytes_text(std::uint64_t bytes) {
-  const char* units[] = {"B", "kB", "MB", "GB", "TB", "PB", "EB"};
-  auto value = static_cast<double>(bytes);
-  int unit = 0;
-  for (; value >= 1000 && unit < 6; ++unit) value /= 1000;
-  char text[32];
-  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
-  return text;
+  throw not_written(folder.string(),
+                    "the run needs about " + bytes_text(static_cast<double>(needs.disk)) +
+                        ", the disk has " + bytes_text(static_cast<double>(available)),
+                    "make space, choose another folder with -o, or make output.interval longer");
 }
 
 }  // namespace sinew

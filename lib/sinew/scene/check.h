@@ -31,7 +31,4 @@ std::uint64_t free_space(const std::filesystem::path& folder);
 /// before it begins.
 void check_space(const std::filesystem::path& folder, const Needs& needs, std::uint64_t freed);
 
-/// "12.3 MB"
-std::string bytes_text(std::uint64_t bytes);
-
 }  // namespace sinew

@@ -121,4 +121,13 @@ SceneRig rig_of(const Settings& settings, const SceneFiles& files) {
   return scene;
 }
 
+std::string fit_text(const SkeletonOptions& fitted) {
+  const auto list = [](const Vec3& v) {
+    return '[' + three_digits(v.x()) + ", " + three_digits(v.y()) + ", " + three_digits(v.z()) +
+           ']';
+  };
+  return "skeleton.fit: scale " + three_digits(fitted.scale) + ", rotation " +
+         list(fitted.rotation) + " degrees, offset " + list(fitted.offset) + " m";
+}
+
 }  // namespace sinew

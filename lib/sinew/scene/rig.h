@@ -33,6 +33,9 @@ struct SceneRig {
 /// errors name the scene's line.
 Settings with_fit(Settings settings);
 
+/// What it found: "skeleton.fit: scale 0.01, rotation [90, 0, 0], offset [0, 0, 1]", with units.
+std::string fit_text(const SkeletonOptions& fitted);
+
 /// The clip of a file moves the bones of the same names. Throws bad input, with the scene's line.
 SceneRig rig_of(const Settings& settings, const SceneFiles& files);
 

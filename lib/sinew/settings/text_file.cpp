@@ -85,7 +85,7 @@ std::string read_text(const std::filesystem::path& path) {
   }
   if (in.bad()) throw bad_input(file, "cannot be read (" + reason() + ")", "check the disk");
   if (text.size() > longest_scene)
-    throw bad_input(file, "is larger than 4 MiB",
+    throw bad_input(file, "is larger than 64 MiB",
                     "a scene is a short text; is this the right file?");
   return text;
 }

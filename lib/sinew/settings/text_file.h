@@ -15,7 +15,7 @@
 
 namespace sinew {
 
-inline constexpr std::size_t longest_scene = std::size_t{4} << 20;  // bytes; 100,000 values fit
+inline constexpr std::size_t longest_scene = std::size_t{64} << 20;  // bytes
 
 /// The whole file. Throws bad input for a missing or unreadable file, a directory, and a file of
 /// more than longest_scene bytes.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
+#include <sinew/core/vector.h>
 
 namespace sinew {
 
@@ -82,6 +83,7 @@ double read_number(const Given& given) {
   const auto value = parse_number(node.text);
   if (!value) throw wrong(given, kind);
   if (!std::isfinite(*value)) throw wrong(given, ", not a finite number");
+  if (!is_computable(*value)) throw wrong(given, ", which is too large to compute with");
   return *value;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/settings/write_scene.h>
 
+#include <sinew/core/error.h>
+#include <sinew/settings/read_scene.h>
 #include <sinew/settings/sections.h>
 #include <sinew/settings/text_file.h>
 
@@ -89,6 +91,18 @@ std::string resolved_scene(const Settings& settings, const std::filesystem::path
     if (section == "motion") text += tracks_text(settings);
     if (section == "world") text += world_text(settings, folder) + machine_text(settings, folder);
     if (section == "binding") text += bound_text(settings);
+  }
+  return text;
+}
+
+std::string readable_scene(const Settings& settings, const std::filesystem::path& path) {
+  std::string text = resolved_scene(settings, path.parent_path());
+  try {
+    scene_from_text(text, path.string(), path.parent_path());
+  } catch (const Error& error) {
+    throw bad_input("the scene, with all its values written out, could not be read again (" +
+                        std::string(error.what()) + ")",
+                    "give it fewer bones or keys");
   }
   return text;
 }

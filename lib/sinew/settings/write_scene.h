@@ -50,4 +50,8 @@ std::string entry_text(std::span<const Field<Owner>> rows, const Owner& owner, s
 /// relative to `folder`, where the scene will be; read_scene() gives the same settings.
 std::string resolved_scene(const Settings& settings, const std::filesystem::path& folder);
 
+/// The same for the file `path`, which can be read again: what is written in its place. Throws bad
+/// input where it would be too large.
+std::string readable_scene(const Settings& settings, const std::filesystem::path& path);
+
 }  // namespace sinew

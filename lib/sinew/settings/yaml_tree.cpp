@@ -17,8 +17,9 @@
 namespace sinew {
 namespace {
 
+/// A copy of a long text counts as several.
 std::size_t node_count(const YamlNode& node) {
-  std::size_t count = 1;
+  std::size_t count = 1 + node.text.size() / sizeof(YamlNode);
   for (const YamlNode& item : node.items) count += node_count(item);
   return count;
 }
@@ -26,7 +27,8 @@ std::size_t node_count(const YamlNode& node) {
 /// Builds the tree from the parser's events.
 class Builder : public YAML::EventHandler {
  public:
-  explicit Builder(std::string file) : file_(std::move(file)) {}
+  Builder(std::string file, std::size_t bytes)
+      : file_(std::move(file)), max_nodes_(max_nodes(bytes)) {}
 
   YamlNode root;
   Place last_quote;  ///< of the last scalar that was not a plain word
@@ -92,8 +94,9 @@ class Builder : public YAML::EventHandler {
 
   void count_nodes(std::size_t more, const Place& place) {
     count_ += more;
-    if (count_ > most_nodes)
-      throw bad_input(place, "more than 100000 values in one scene", "shorten it");
+    if (count_ > max_nodes_)
+      throw bad_input(place, "more than " + std::to_string(max_nodes_) + " values in one scene",
+                      "shorten it");
   }
 
   void open(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
@@ -149,6 +152,7 @@ class Builder : public YAML::EventHandler {
   }
 
   std::string file_;
+  std::size_t max_nodes_;
   bool begun_ = false;
   std::size_t count_ = 0;
   std::vector<Open> open_;
@@ -159,8 +163,10 @@ class Builder : public YAML::EventHandler {
 void check_brackets(std::string_view text, const std::string& file) {
   const auto parts = std::count_if(text.begin(), text.end(),
                                    [](char c) { return c == '[' || c == '{' || c == ','; });
-  if (static_cast<std::size_t>(parts) > 2 * most_nodes)
-    throw bad_input({file}, "more than 200000 brackets and commas", "shorten the scene");
+  const std::size_t max_parts = 2 * max_nodes(text.size());
+  if (static_cast<std::size_t>(parts) > max_parts)
+    throw bad_input({file}, "more than " + std::to_string(max_parts) + " brackets and commas",
+                    "shorten the scene");
 }
 
 /// yaml-cpp lets quotes run to the end of the file; then they have no closing mark.
@@ -194,7 +200,7 @@ YamlNode parse_yaml(std::string_view text, const std::string& file) {
   check_text(text, file);
   check_brackets(text, file);
   std::istringstream in{std::string(text)};
-  Builder builder(file);
+  Builder builder(file, text.size());
   try {
     YAML::Parser parser(in);
     while (parser.HandleNextDocument(builder)) continue;

@@ -16,8 +16,10 @@
 
 namespace sinew {
 
-inline constexpr std::size_t most_nodes = 100'000;  // values in one text, aliases written out
-inline constexpr std::size_t deepest_node = 32;     // lists and mappings inside each other
+/// Values in a text of that many bytes, aliases written out: those of a scene that sinew writes
+/// have at least four bytes each.
+constexpr std::size_t max_nodes(std::size_t bytes) { return 100'000 + bytes / 4; }
+inline constexpr std::size_t deepest_node = 32;  // lists and mappings inside each other
 
 struct YamlKey {
   std::string name;

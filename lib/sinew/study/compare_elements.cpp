@@ -323,7 +323,7 @@ ElementComparison compare_elements(const fs::path& run, const fs::path& result,
   refuse_folders_of_runs(out, {run});
   RunInElements comparison(run, result);
   ElementComparison compared = comparison.compare(how);
-  create({out});
+  create_folder(out);
   write_file(out / "reference.csv", reference_csv(compared));
   write_file(out / "reference.json", reference_json(compared));
   write_file(out / "compare.csv", comparison_csv(compared.metrics));

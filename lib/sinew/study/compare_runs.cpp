@@ -158,7 +158,7 @@ ComparedRun compared_run(const Side& side, const std::vector<Pair>& pairs, std::
 
 void write_comparison(const RunComparison& compared, const Side& first, const Side& second,
                       const fs::path& out) {
-  create({out});
+  create_folder(out);
   write_file(out / "compare.csv", comparison_csv(compared));
   write_file(out / "metrics.json", comparison_json(compared));
   const Playback playback = side_by_side(first.playback, second.playback, {"a: ", "b: "});

@@ -76,7 +76,7 @@ std::string study_json(const Study& study) {
 }
 
 void write_study(const Study& study, const std::filesystem::path& out) {
-  create({out});
+  create_folder(out);
   write_file(out / "study.csv", study_csv(study));
   write_file(out / "study.json", study_json(study));
   write_file(out / "report.html", study_html(study, name_of_run(out)));

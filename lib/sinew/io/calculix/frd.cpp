@@ -14,6 +14,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
+#include <sinew/core/vector.h>
 
 namespace sinew {
 namespace {
@@ -21,12 +22,18 @@ namespace {
 constexpr std::uint64_t largest_result = std::uint64_t{8} << 30;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 // Columns of a record.
-constexpr std::size_t key_width = 3, number_width = 10, value_width = 12;
+constexpr std::size_t key_width = 3, number_width = 10;
+
+/// Bytes that results may take beside those of the text.
+constexpr std::size_t spare_bytes = std::size_t{100} << 20;
 
 /// The lines of the text, with their number.
 class FrdLines {
  public:
-  FrdLines(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {}
+  FrdLines(std::string_view text, std::string file)
+      : rest_(text), bytes_(text.size()), file_(std::move(file)) {}
+
+  std::size_t bytes() const { return bytes_; }  ///< of the text
 
   std::optional<std::string_view> next() {
     if (rest_.empty()) return std::nullopt;
@@ -45,6 +52,7 @@ class FrdLines {
 
  private:
   std::string_view rest_;
+  std::size_t bytes_;
   std::string file_;
   int number_ = 0;
 };
@@ -67,6 +75,47 @@ Number parsed_as(std::string_view text, const FrdLines& lines) {
     lines.refuse(shown(text) + " is no number");
   return value;
 }
+
+/// The values of a record, one after the other. They are printed with six digits in at least twelve
+/// columns: exponents of three digits make them longer, and no space need lie between two.
+class FrdValues {
+ public:
+  FrdValues(std::string_view line, std::size_t from, const FrdLines& lines)
+      : rest_(line.substr(std::min(from, line.size()))), lines_(lines) {}
+
+  double next() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size()));
+    const std::size_t size = size_of_first();
+    const std::string_view text = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool tiny = error == std::errc::result_out_of_range && text.find('-', 1) != text.npos;
+    if (end != text.data() + text.size() || (error != std::errc() && !tiny))
+      lines_.refuse(shown(text) + " is no number");
+    if (!is_computable(value)) lines_.refuse(shown(text) + " is too large or not finite");
+    return tiny ? 0 : value;
+  }
+
+  /// Refuses what follows unless it is values, too.
+  void end() {
+    while (!stripped(rest_).empty()) next();
+  }
+
+ private:
+  /// Up to a space or the sign of the next value; of the digits before a point, the last one is the
+  /// next value's.
+  std::size_t size_of_first() const {
+    const std::size_t exponent = rest_.find_first_of("Ee ");
+    if (exponent >= rest_.size() || rest_[exponent] == ' ') return std::min(exponent, rest_.size());
+    const std::size_t digits = std::min(exponent + 2, rest_.size());
+    const std::size_t end = std::min(rest_.find_first_not_of("0123456789", digits), rest_.size());
+    return end < rest_.size() && rest_[end] == '.' && end > digits ? end - 1 : end;
+  }
+
+  std::string_view rest_;
+  const FrdLines& lines_;
+};
 
 bool is_key(std::string_view line, std::string_view key) { return line.starts_with(key); }
 
@@ -116,13 +165,20 @@ class FrdReader {
       const int number = parsed_as<int>(columns_of(*line, key_width, number_width), lines_);
       if (!place_.try_emplace(number, static_cast<std::uint32_t>(result_.mesh.nodes.size())).second)
         lines_.refuse("node " + std::to_string(number) + " is there twice");
-      result_.mesh.nodes.emplace_back(value(*line, 0), value(*line, 1), value(*line, 2));
+      result_.mesh.nodes.push_back(vector_in(*line));
     }
   }
 
-  double value(std::string_view line, std::size_t k) const {
-    return parsed_as<double>(
-        columns_of(line, key_width + number_width + k * value_width, value_width), lines_);
+  FrdValues values_in(std::string_view line) const {
+    return {line, key_width + number_width, lines_};
+  }
+
+  Vec3 vector_in(std::string_view line) const {
+    FrdValues values = values_in(line);
+    Vec3 vector;
+    for (double& part : vector) part = values.next();
+    values.end();
+    return vector;
   }
 
   std::uint32_t node(std::string_view text) const {
@@ -169,11 +225,15 @@ class FrdReader {
     if (element.kind == ElementKind::hexahedron20)
       std::rotate(found.begin() + 12, found.begin() + 16, found.end());
     std::copy(found.begin(), found.end(), element.nodes.begin());
+    std::sort(found.begin(), found.end());
+    if (std::adjacent_find(found.begin(), found.end()) != found.end())
+      lines_.refuse("an element has the same node twice",
+                    "give a mesh without degenerate elements");
   }
 
   void read_result(std::string_view head) {
     check_format(head);
-    const double time = parsed_as<double>(columns_of(head, 12, value_width), lines_);
+    const double time = FrdValues(head, 12, lines_).next();
     const auto name = lines_.next();
     if (!name || !is_key(*name, " -4")) lines_.refuse("a result lacks its name");
     const std::string_view kind = columns_of(*name, 5, 8);
@@ -204,19 +264,28 @@ class FrdReader {
     }
   }
 
+  /// Results of few nodes each take more memory than their text.
+  template <class Value>
+  void make_room(std::vector<Value>& values, const Value& none) {
+    taken_ += result_.mesh.nodes.size() * sizeof(Value);
+    if (taken_ > 12 * lines_.bytes() + spare_bytes)
+      lines_.refuse("holds many results of few nodes", "write the results of all nodes");
+    values.assign(result_.mesh.nodes.size(), none);
+  }
+
   void read_vectors(Points& values) {
-    values.assign(result_.mesh.nodes.size(), Vec3::Constant(unknown));
-    read_values([&](std::uint32_t node, std::string_view line) {
-      values[node] = {value(line, 0), value(line, 1), value(line, 2)};
-    });
+    make_room(values, Vec3(Vec3::Constant(unknown)));
+    read_values([&](std::uint32_t node, std::string_view line) { values[node] = vector_in(line); });
   }
 
   void read_stresses(FrdStep& step) {
     StressComponents none;
     none.fill(unknown);
-    step.stress.assign(result_.mesh.nodes.size(), none);
+    make_room(step.stress, none);
     read_values([&](std::uint32_t node, std::string_view line) {
-      for (std::size_t k = 0; k < none.size(); ++k) step.stress[node][k] = value(line, k);
+      FrdValues values = values_in(line);
+      for (double& part : step.stress[node]) part = values.next();
+      values.end();
     });
   }
 
@@ -234,6 +303,7 @@ class FrdReader {
   FrdLines lines_;
   FrdResult result_;
   std::unordered_map<int, std::uint32_t> place_;  ///< of nodes by their number
+  std::size_t taken_ = 0;                         ///< bytes of results
 };
 
 }  // namespace

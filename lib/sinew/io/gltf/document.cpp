@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include <sinew/core/json_extent.h>
 #include <sinew/core/text.h>
 
 namespace sinew {
@@ -19,26 +20,11 @@ constexpr int deepest_nesting = 100;       // real files are nested to about 10
 constexpr std::int64_t most_values = 4e6;  // each takes about 100 bytes once parsed
 constexpr std::size_t most_items = 100'000;
 
-/// Index of the quote that ends the string beginning at `at`.
-std::size_t end_of_string(std::string_view json, std::size_t at) {
-  for (++at; at < json.size() && json[at] != '"'; ++at)
-    if (json[at] == '\\') ++at;
-  return at;
-}
-
 /// Checked before parsing: deeply nested values are later copied and freed by recursion.
 void check_extent(std::string_view json) {
-  int depth = 0;
-  std::int64_t values = 0;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (c == '"') i = end_of_string(json, i);
-    if (c == ']' || c == '}') --depth;
-    if (c == '[' || c == '{') ++depth;
-    if (c == '[' || c == '{' || c == ',') ++values;
-    if (depth > deepest_nesting) throw damaged_gltf("its JSON is nested more than 100 deep");
-    if (values > most_values) throw damaged_gltf("its JSON holds more than 4 million values");
-  }
+  const JsonExtent extent = json_extent(json);
+  if (extent.depth > deepest_nesting) throw damaged_gltf("its JSON is nested more than 100 deep");
+  if (extent.values > most_values) throw damaged_gltf("its JSON holds more than 4 million values");
 }
 
 Json parsed(std::string_view text) {
@@ -65,7 +51,7 @@ std::optional<std::int64_t> integer_in(const Json& value) {
 
 Error wrong(const std::string& name, const Json& value, const std::string& wanted) {
   const std::string what =
-      value.is_primitive() ? shown(value.dump()) : std::string("an ") + value.type_name();
+      value.is_primitive() ? shown(json_text(value)) : std::string("an ") + value.type_name();
   return damaged_gltf((name.empty() ? "its JSON" : name) + " is " + what + ", not " + wanted);
 }
 
@@ -86,7 +72,7 @@ double number_in(const Json& value, const std::string& name) {
   if (!value.is_number()) throw wrong(name, value, "a number");
   const double number = value.get<double>();
   if (!(std::abs(number) <= FLT_MAX))
-    throw damaged_gltf(name + " holds " + shown(value.dump()) + ", too large for a float");
+    throw damaged_gltf(name + " holds " + shown(json_text(value)) + ", too large for a float");
   return number;
 }
 

@@ -46,7 +46,8 @@ std::optional<std::string> bytes_of(const OrderedJson& image, const std::filesys
   if (!uri) return {};
   if (uri->starts_with("data:")) return decoded(*uri);
   try {
-    return read_file(gltf_file_of(*uri, folder));
+    const std::filesystem::path file = gltf_file_of(*uri, folder);
+    return read_file(file_below(folder, file.lexically_relative(folder / "")));
   } catch (const Error&) {
     return {};
   }

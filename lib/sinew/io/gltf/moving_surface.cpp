@@ -8,6 +8,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
+#include <sinew/core/json_extent.h>
 #include <sinew/io/gltf/document.h>
 #include <sinew/io/gltf/materials.h>
 #include <sinew/io/gltf/split_surface.h>
@@ -321,7 +322,7 @@ void write_moving_surface(const std::filesystem::path& path,
   const GltfMaterials materials = materials_of(surface, look);
   Moments moments(cache, surface);
   Contents contents;
-  std::string json = describe(moments, surface, materials, times, contents).dump();
+  std::string json = json_text(describe(moments, surface, materials, times, contents));
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::size_t size = 12 + 8 + json.size() + 8 + contents.bytes();
   const std::string head = "glTF" + little_endian(2) +

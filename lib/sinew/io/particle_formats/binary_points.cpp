@@ -4,6 +4,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include <sinew/core/json_extent.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/particle_formats/writers.h>
 
@@ -99,7 +100,7 @@ std::string gltf_json(const ParticleCloud& cloud, const Box& box, const Vec3& ce
   json["accessors"] = only(accessor);
   json["bufferViews"] = only({{"buffer", 0}, {"byteLength", bytes}, {"target", 34962}});
   json["buffers"] = only({{"byteLength", bytes}});
-  std::string text = json.dump();
+  std::string text = json_text(json);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   return text;
 }

@@ -38,13 +38,15 @@ struct LevelSet {
   Vec3 origin = Vec3::Zero();       ///< of the first one
   Mat3 axes = Mat3::Identity();     ///< columns: from one sample to the next along each axis
   std::vector<double> values = {};  ///< the first axis varies fastest
+  std::size_t bytes = 0;            ///< of the values in the file, uncompressed
 };
 
 /// Quadrilaterals around what has the sign that fewer samples of the image's border have (where
 /// that is none at all, the other sign): one corner in each cell through which the surface passes,
 /// moved to the zero level of the trilinear interpolation, as in dual contouring. Where the inside
 /// reaches the border, the surface is closed along it, with a warning. Throws bad input for images
-/// of fewer than two samples along an axis, values that are not finite, and where none is inside.
+/// of fewer than two samples along an axis, values that are not finite, where none is inside, and
+/// where the surface passes through so many cells that it is of noise.
 PolygonSoup zero_level(const LevelSet& image);
 
 // Legacy files (.vtk), as text or binary, of versions up to 5.

@@ -29,10 +29,12 @@ class Padded {
     for_each([&](const Sample& at, double) {
       const bool in = inside(at);
       inside_ += in;
+      if (in) faces_ += neighbors_outside(at);
       cut_ += in && on_border(at);
     });
   }
 
+  std::size_t faces() const { return faces_; }  ///< of the surface: edges that it crosses
   std::size_t samples_inside() const { return inside_; }
   std::size_t samples_cut() const { return cut_; }  ///< inside, and on the image's border
   int size(int axis) const { return image_.size[axis]; }
@@ -62,6 +64,17 @@ class Padded {
         for (int x = 0; x < image_.size[0]; ++x) visit(Sample{x, y, z}, image_.values[i++]);
   }
 
+  std::size_t neighbors_outside(const Sample& at) const {
+    std::size_t count = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int step : {-1, 1}) {
+        Sample next = at;
+        next[axis] += step;
+        count += !inside(next);
+      }
+    return count;
+  }
+
   bool on_border(const Sample& at) const {
     bool border = false;
     for (int k = 0; k < 3; ++k) border = border || at[k] == 0 || at[k] == image_.size[k] - 1;
@@ -78,7 +91,7 @@ class Padded {
 
   const LevelSet& image_;
   double sign_ = -1;
-  std::size_t inside_ = 0, cut_ = 0;
+  std::size_t inside_ = 0, cut_ = 0, faces_ = 0;
 };
 
 /// Sample number `corner` of a cell: its bits are the steps along the axes.
@@ -202,6 +215,15 @@ void check(const LevelSet& image) {
 
 }  // namespace
 
+/// A quadrilateral takes some 310 bytes of memory.
+void check_faces(const Padded& image, std::size_t bytes) {
+  const std::size_t faces = image.faces(), max_faces = 500'000 + bytes / 26;
+  if (faces > max_faces)
+    throw bad_input("its surface has " + std::to_string(faces) + " faces, more than " +
+                        std::to_string(max_faces) + ", as of noise",
+                    "smooth the image, or subtract another level from it");
+}
+
 PolygonSoup zero_level(const LevelSet& image) {
   check(image);
   const Padded padded(image);
@@ -211,6 +233,7 @@ PolygonSoup zero_level(const LevelSet& image) {
                         " to " + three_digits(*high) + " and do not change their sign",
                     "give distances that are negative on one side, or subtract a level from it");
   }
+  check_faces(padded, image.bytes);
   PolygonSoup soup = Contour(padded).soup();
   if (padded.samples_cut() > 0)
     soup.warning = "the body reaches the border of its image, at " +

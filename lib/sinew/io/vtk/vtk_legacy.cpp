@@ -70,6 +70,8 @@ class Reader {
  public:
   explicit Reader(std::string_view text) : rest_(text) {}
 
+  std::size_t left() const { return rest_.size(); }  ///< bytes
+
   /// The rest of the line, which ends it.
   std::string_view line() {
     const std::size_t end = rest_.find('\n');
@@ -243,7 +245,9 @@ void read_scalars(Reader& in, std::uint64_t rows, Content& content) {
   }
   if (in.word() != "LOOKUP_TABLE") throw damaged("its scalars have no LOOKUP_TABLE");
   in.word();
+  const std::size_t before = in.left();
   content.image->values = in.numbers(type, rows);
+  content.image->bytes = before - in.left();
   content.has_values = true;
 }
 
@@ -329,7 +333,8 @@ Content content_of(Reader& in, double version, bool image) {
 PolygonSoup surface_of(Content content) {
   if (!content.image) {
     VtkCells& cells = content.cells;
-    for (const std::int64_t type : content.types) cells.types.push_back(static_cast<int>(type));
+    for (const std::int64_t type : content.types)
+      cells.types.push_back(std::in_range<int>(type) ? static_cast<int>(type) : -1);
     PolygonSoup soup{std::move(content.points), {}, {}};
     soup.polygons = surface_of(cells, soup.points.size());
     return soup;

@@ -176,7 +176,9 @@ PolygonSoup surface_of_image(const VtkXmlFile& file) {
     throw vtu_refused("the image has " + std::to_string(pieces.size()) + " pieces, not one");
   LevelSet image;
   const std::uint64_t count = read_extent(file, image);
-  const Column scalars = file.arrays.column(scalars_of(file, pieces.front()), count);
+  const XmlElement& array = scalars_of(file, pieces.front());
+  const Column scalars = file.arrays.column(array, count);
+  image.bytes = count * size_of_type(array);
   if (scalars.components != 1) throw vtu_refused("the image's scalars have several components");
   std::visit([&](const auto& values) { image.values.assign(values.begin(), values.end()); },
              scalars.values);

@@ -2,6 +2,7 @@
 #include <sinew/io/vtk/vtk_xml.h>
 
 #include <algorithm>
+#include <map>
 
 #include <sinew/core/text.h>
 
@@ -74,11 +75,23 @@ std::vector<const XmlElement*> VtkXmlFile::arrays_in(std::span<const XmlElement>
   return found;
 }
 
+/// Arrays are read one by one: data of which there are few bytes would be read again and again.
+void check_shared(const std::vector<XmlElement>& elements) {
+  constexpr int max_shared = 16;
+  std::map<std::string_view, int> uses;
+  for (const XmlElement& element : elements)
+    if (element.attribute("format") == "appended" &&
+        ++uses[element.attribute("offset")] > max_shared)
+      throw vtu_refused("more than 16 arrays are the same appended data");
+}
+
 VtkXmlFile vtk_xml_file(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
   check_start_and_end(text);
   VtkXmlFile file{"", xml_elements(text, appended_path), {}};
   const XmlElement& root = file.elements.front();
   check_root(root);
+  check_shared(file.elements);
   file.type = root.attribute("type");
   VtuArrays& arrays = file.arrays;
   arrays.within = arrays.behind = coding_of(root);

@@ -44,6 +44,7 @@ class EarCutter {
   }
 
   std::vector<std::array<int, 3>> triangles() {
+    if (left_.size() > most_corners) return fan();
     std::vector<std::array<int, 3>> result;
     while (left_.size() > 3) {
       const std::size_t ear = next_ear();
@@ -60,13 +61,27 @@ class EarCutter {
   std::size_t after(std::size_t i) const { return i + 1 == left_.size() ? 0 : i + 1; }
   double turn_at(std::size_t i) const { return turn(flat_[before(i)], flat_[i], flat_[after(i)]); }
 
-  std::size_t next_ear() {
-    std::vector<std::size_t> blunt;  // corners that may lie in an ear: those that do not turn left
+  /// Corners that may lie in an ear: those that do not turn left.
+  std::vector<std::size_t> blunt_corners() const {
+    std::vector<std::size_t> blunt;
     for (std::size_t i = 0; i < left_.size(); ++i)
       if (turn_at(i) <= 0) blunt.push_back(i);
-    if (!blunt.empty() && left_.size() > most_corners)
+    return blunt;
+  }
+
+  /// The ears of a convex polygon, in one go.
+  std::vector<std::array<int, 3>> fan() const {
+    if (!blunt_corners().empty())
       throw bad_input("a face that is not convex has " + std::to_string(left_.size()) + " corners",
                       "export the mesh as triangles");
+    std::vector<std::array<int, 3>> result;
+    for (std::size_t i = 0; i + 2 < left_.size(); ++i)
+      result.push_back({left_.back(), left_[i], left_[i + 1]});
+    return result;
+  }
+
+  std::size_t next_ear() {
+    const std::vector<std::size_t> blunt = blunt_corners();
     for (std::size_t i = 0; i < left_.size(); ++i)
       if (turn_at(i) > 0 && empty(i, blunt)) return i;
     return 0;  // self-intersecting or without area: any cut is as good

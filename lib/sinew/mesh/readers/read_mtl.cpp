@@ -17,11 +17,12 @@ std::string rest_of(std::string_view line, std::string_view keyword) {
   return std::string(line);
 }
 
-/// The file of a texture, which options may precede: of these only the last word is taken.
+/// The file of a texture in the folder or below, which options may precede: of these only the last
+/// word is taken.
 std::string image_in(std::string text, const std::filesystem::path& folder) {
   if (text.starts_with('-')) text.erase(0, text.find_last_of(" \t") + 1);
   std::replace(text.begin(), text.end(), '\\', '/');
-  return text.empty() ? text : (folder / text).string();
+  return file_below(folder, text).string();
 }
 
 /// Between 0 and 1; `other` where it is no number.

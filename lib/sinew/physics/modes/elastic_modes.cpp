@@ -254,7 +254,7 @@ double ElasticModes::damping_ratio(double damping) const {
 
 double ElasticModes::damping_for(double ratio) const {
   constexpr double most_followed = 0.9;  // beyond, in proportion
-  if (empty() || !(rates(0, 0) > 0)) return 0;
+  if (empty() || !(ratio > 0) || !(rates(0, 0) > 0)) return 0;
   const double wanted = std::min(ratio, most_followed);
   double low = 0, high = 2 * wanted * frequency() / rates(0, 0);
   for (int n = 0; n < 20 && damping_ratio(high) < wanted; ++n) low = high, high *= 1.5;

@@ -61,22 +61,22 @@ void require_field(bool holds, const std::string& name, const std::string& wrong
 }
 
 void check_core(double acceleration, double core, const std::string& name) {
-  require_field(std::isfinite(acceleration), name, "has an acceleration that is not finite",
-                "give a finite number");
-  require_field(std::isfinite(core) && core > 0, name, "has a core of " + number_text(core),
+  require_field(is_computable(acceleration), name,
+                "has an acceleration that is too large or not finite", "give a finite number");
+  require_field(is_computable(core) && core > 0, name, "has a core of " + number_text(core),
                 "give a positive length");
 }
 
 void check_form(const UniformAcceleration& form, const std::string& name) {
-  require_field(form.acceleration.allFinite(), name, "has an acceleration that is not finite",
-                "give finite numbers");
+  require_field(is_computable(form.acceleration), name,
+                "has an acceleration that is too large or not finite", "give finite numbers");
 }
 void check_form(const ForceDensity& form, const std::string& name) {
-  require_field(form.density.allFinite(), name, "has a density that is not finite",
+  require_field(is_computable(form.density), name, "has a density that is too large or not finite",
                 "give finite numbers");
 }
 void check_form(const Attraction& form, const std::string& name) {
-  require_field(form.point.allFinite(), name, "has a point that is not finite",
+  require_field(is_computable(form.point), name, "has a point that is too large or not finite",
                 "give finite numbers");
   check_core(form.acceleration, form.core, name);
 }
@@ -87,10 +87,10 @@ void check_form(const CustomForce& form, const std::string& name) {
                 "give the largest force, and the length over which it changes by as much");
 }
 void check_form(const Swirl& form, const std::string& name) {
-  require_field(form.point.allFinite(), name, "has a point that is not finite",
+  require_field(is_computable(form.point), name, "has a point that is too large or not finite",
                 "give finite numbers");
-  require_field(form.axis.allFinite() && form.axis.norm() > 0, name, "has an axis without length",
-                "give a direction");
+  require_field(is_computable(form.axis) && form.axis.norm() > 0, name,
+                "has an axis without length", "give a direction");
   check_core(form.acceleration, form.core, name);
 }
 
@@ -119,10 +119,10 @@ void check_field(const ForceField& field) {
 }
 
 void check_drag(const Drag& drag) {
-  if (!std::isfinite(drag.rate) || drag.rate < 0)
+  if (!is_computable(drag.rate) || drag.rate < 0)
     throw bad_input("drag has a rate of " + number_text(drag.rate), "give 0 or a positive number");
-  if (!drag.velocity.allFinite())
-    throw bad_input("the medium's velocity is not finite", "give finite numbers");
+  if (!is_computable(drag.velocity))
+    throw bad_input("the medium's velocity is too large or not finite", "give finite numbers");
 }
 
 }  // namespace sinew

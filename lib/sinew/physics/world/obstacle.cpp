@@ -11,7 +11,7 @@ namespace sinew {
 namespace {
 
 void check_constant(const Obstacle& obstacle, const std::string& key, double value) {
-  if (std::isfinite(value) && value >= 0) return;
+  if (is_computable(value) && value >= 0) return;
   throw bad_input("obstacle '" + obstacle.name + "' has a " + key + " of " + number_text(value),
                   "give 0 or a positive number");
 }

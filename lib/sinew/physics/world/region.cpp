@@ -21,7 +21,7 @@ double Region::weight(const Vec3& point) const {
 
 void check_region(const Region& region, const std::string& what) {
   if (region.shape) check_shape(*region.shape, what);
-  if (!std::isfinite(region.falloff) || region.falloff < 0)
+  if (!is_computable(region.falloff) || region.falloff < 0)
     throw bad_input(what + " has a falloff of " + number_text(region.falloff),
                     "give 0 or a positive width");
 }
@@ -67,10 +67,10 @@ void check_keys(const KeyedValue& keys, double low, double high, const std::stri
                     "give one value per time");
   for (std::size_t k = 0; k < keys.times.size(); ++k) {
     const double time = keys.times[k], value = keys.values[k];
-    if (!std::isfinite(time) || (k > 0 && !(time > keys.times[k - 1])))
+    if (!is_computable(time) || (k > 0 && !(time > keys.times[k - 1])))
       throw bad_input(what + " has a key at " + number_text(time) + " s that does not come later",
                       "give keys in ascending time");
-    if (!std::isfinite(value) || value < low || value > high)
+    if (!is_computable(value) || value < low || value > high)
       throw bad_input(what + " has the value " + number_text(value),
                       "give values from " + number_text(low) + " to " + number_text(high));
   }

@@ -68,18 +68,18 @@ void require_shape(bool holds, const std::string& what, const std::string& wrong
 }
 
 void check_size(double size, const std::string& what, const std::string& name) {
-  require_shape(std::isfinite(size) && size > 0, what,
+  require_shape(is_computable(size) && size > 0, what,
                 " has a " + name + " of " + number_text(size), "give a positive number");
 }
 
 void check_place(const Vec3& place, const std::string& what) {
-  require_shape(place.allFinite(), what, " is at a place that is not finite",
+  require_shape(is_computable(place), what, " is at a place that is too large or not finite",
                 "give finite numbers");
 }
 
 void check_solid(const PlaneShape& plane, const std::string& what) {
   check_place(plane.point, what);
-  require_shape(plane.normal.allFinite() && plane.normal.norm() > 0, what,
+  require_shape(is_computable(plane.normal) && plane.normal.norm() > 0, what,
                 " is a plane whose normal has no length", "give a direction");
 }
 
@@ -105,9 +105,9 @@ void check_solid(const BoxShape& box, const std::string& what) {
 void check_solid(const MeshShape& mesh, const std::string& what) {
   require_shape(static_cast<bool>(mesh.distance), what, " is a mesh without distances",
                 "give its distance function");
-  require_shape(
-      !mesh.bounds.isEmpty() && mesh.bounds.min().allFinite() && mesh.bounds.max().allFinite(),
-      what, " is a mesh without bounds", "give the box that holds it");
+  require_shape(!mesh.bounds.isEmpty() && is_computable(mesh.bounds.min()) &&
+                    is_computable(mesh.bounds.max()),
+                what, " is a mesh without bounds", "give the box that holds it");
 }
 
 }  // namespace

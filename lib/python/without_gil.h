@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Work that other threads of Python need not wait for.
+//
+//     const WithoutGil free;       // in a block: the lock is taken again at its end
+//     simulation.step();
+//
+// Python leaves while threads of its own may still be at work here. One that then takes the lock is
+// ended by Python in the midst of C++, which aborts: after the interpreter has begun to leave, a
+// thread that would take it waits instead for the end of the process.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
+
+namespace sinew::python {
+
+namespace py = pybind11;
+
+/// Whether Python has begun to leave.
+inline std::atomic<bool> leaving = false;
+
+class WithoutGil {
+ public:
+  WithoutGil() {
+    ++at_work;
+    released_.emplace();
+  }
+  ~WithoutGil() {
+    if (leaving) stay();
+    released_.reset();
+    --at_work;
+  }
+  WithoutGil(const WithoutGil&) = delete;
+  WithoutGil& operator=(const WithoutGil&) = delete;
+
+  /// Returns once all threads at work have come back to Python or stay here.
+  static void let_all_end() {
+    leaving = true;
+    const py::gil_scoped_release release;
+    while (at_work > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+ private:
+  [[noreturn]] static void stay() {
+    --at_work;
+    while (true) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+
+  inline static std::atomic<int> at_work = 0;
+  std::optional<py::gil_scoped_release> released_;
+};
+
+/// Whether signals reach Python from this thread, which holds the lock.
+inline bool is_main_thread() {
+  const auto main = py::module_::import("threading").attr("main_thread")().attr("ident");
+  return main.cast<unsigned long>() == PyThread_get_thread_ident();
+}
+
+}  // namespace sinew::python

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Extent of a JSON text, found before it is parsed: text from elsewhere may nest so deeply that
+// writing its values exhausts the stack, or hold so many that they exhaust memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace sinew {
+
+struct JsonExtent {
+  int depth = 0;            ///< lists and objects inside each other
+  std::int64_t values = 0;  ///< number of values, or one more
+};
+
+/// Of any text; meaningful where it is JSON.
+JsonExtent json_extent(std::string_view text);
+
+/// The value of a JSON text that sinew wrote, as nlohmann's type `Json`; discarded where the text
+/// is not JSON, or nested more deeply than sinew nests.
+template <class Json>
+Json own_json(std::string_view text) {
+  constexpr int max_depth = 16;
+  if (json_extent(text).depth > max_depth) return Json(Json::value_t::discarded);
+  return Json::parse(text, nullptr, false);
+}
+
+/// The text of a value; names of files in it may be in any encoding, JSON is UTF-8.
+template <class Json>
+std::string json_text(const Json& value, int indent = -1) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace sinew
