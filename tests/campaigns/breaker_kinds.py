@@ -51,9 +51,9 @@ def make_samples(bin, source, folder):
     said = subprocess.run([bin / "sinew", "check", "--help-settings"], check=True, capture_output=True, text=True).stdout
     keys, section = [], ""
     for line in said.splitlines():
-        if found := re.match(r"(\w+):?\s*$", line):
+        if found := re.match(r"  (\w+)\s*$", line):
             section = found[1]
-        elif section and (found := re.match(r"\s+(\w+)\s", line)):
+        elif section and (found := re.match(r"    (\w+)\s", line)):
             keys.append(f"{section}.{found[1]}")
     (folder / "keys").write_text("\n".join(keys))
 
@@ -127,7 +127,7 @@ def run_folders(trial):
     files = sorted(file for file in run.rglob("*") if file.is_file() and file.name != ".lock")
     for _ in range(trial.chance.choice((1, 1, 3))):
         file = trial.chance.choice(files)
-        if not file.exists():
+        if not file.is_file() or file.is_symlink():
             continue
         how = trial.chance.randrange(5)
         data = file.read_bytes()
@@ -314,7 +314,7 @@ def surroundings(trial):
                    for key in ("HOME", "TMPDIR", "LANG", "LC_ALL", "TERM", "PATH", "NO_COLOR", "DISPLAY") if trial.chance.random() < 0.2}
     words = trial.chance.choice((["simulate", path, "-o", trial.inside / "r"], ["measure", trial.small_run()],
                                  ["fill", trial.source / "data/meshes/arm.ply", "--count", "300"], ["info", trial.samples / "run"]))
-    trial.sinew(*words, limits=limits, environment=environment, declared=10**7,
+    trial.sinew(*words, limits=limits, environment=environment, declared=10**7, silent=2 in closed or (resource.RLIMIT_FSIZE, 0) in limits,
                 before=lambda: [os.close(number) for number in closed])
 
 
@@ -326,7 +326,7 @@ def kills(trial):
 
     def strike(child):
         time.sleep(trial.chance.uniform(0, 0.5))
-        child.send_signal(name)
+        os.kill(child.pid, name)  # it is not waited for yet
     for _ in range(trial.chance.randint(1, 3)):
         words = ["--resume"] if out.exists() else []
         trial.sinew("simulate", path, "-o", out, *words, after=strike, codes={0, 130, name})

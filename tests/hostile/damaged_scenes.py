@@ -84,5 +84,5 @@ def scene():
         b"    - {name: b%d, parent: lower, tail: [0, 0, 1]}\n" % k for k in range(60_000)) + b"motion:")
     files["long_key"] = SCENE + b"x" * 100_000 + b": 1\n"
     files["long_name"] = replaced(SCENE, b"parent: lower", b"parent: " + b"x" * 1_000_000)
-    files["long_scene"] = SCENE + b"# a comment\n" * 400_000
+    files["long_scene"] = SCENE + b"# a comment\n" * 6_000_000
     return SCENE, files

@@ -183,6 +183,16 @@ void check_output(const Settings& settings) {
                     "set body.packing to fcc or hcp, or remove it");
 }
 
+/// Each frame has four lines for each bone.
+void check_bone_count(const Settings& settings) {
+  constexpr std::size_t max_bones = 10'000;
+  if (settings.bones.size() > max_bones)
+    throw bad_input(settings.place("skeleton.bones"),
+                    "there are " + std::to_string(settings.bones.size()) + " bones, more than " +
+                        std::to_string(max_bones),
+                    "leave out those that move nothing");
+}
+
 void check_axes(const Settings& settings) {
   const char* cure = "name two different axes, as in up: y and forward: z";
   if (to_scene(settings.body).determinant() < 0.5)
@@ -272,6 +282,7 @@ void apply_preset(Settings& settings) {
 void check_together(const Settings& settings) {
   for (const EitherOr& pair : either_or()) check_pair(settings, pair);
   check_material(settings);
+  check_bone_count(settings);
   check_axes(settings);
   check_clip(settings);
   check_output(settings);

@@ -32,13 +32,22 @@ void read_entries(const YamlNode& node, const std::string& path, std::string_vie
     read(items[i], path_of_entry(path, list, i), owners.emplace_back());
 }
 
+/// Reads a key of an entry. In scenes of many, an error names a place around that of its value.
+template <class Key>
+void read_key(const YamlNode& item, const std::string& path, std::span<const Field<Key>> rows,
+              Key& key, Settings& settings) {
+  Places forgotten;
+  read_fields(item, path, rows, "", key,
+              settings.places.size() < max_places ? settings.places : forgotten);
+}
+
 /// Keys of an entry, with ascending times.
 template <class Key>
 void read_keys(const YamlNode& node, const std::string& path, std::span<const Field<Key>> rows,
                std::vector<Key>& keys, Settings& settings) {
   read_entries(node, path, "keys", keys, settings.places,
                [&](const YamlNode& item, const std::string& below, Key& key) {
-                 read_fields(item, below, rows, "", key, settings.places);
+                 read_key(item, below, rows, key, settings);
                  if (keys.size() > 1 && !(key.time > keys[keys.size() - 2].time))
                    throw bad_input(settings.place(below + ".time"),
                                    "keys are not in ascending time",

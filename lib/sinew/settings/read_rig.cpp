@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include <sinew/core/text.h>
+#include <sinew/settings/entries.h>
 #include <sinew/settings/text_file.h>
 #include <sinew/settings/values.h>
 
@@ -36,8 +37,8 @@ void read_bone_list(const YamlNode& skeleton, Settings& settings) {
 void read_keys(const YamlNode& track, const std::string& path, Settings& settings) {
   const auto items = list_below(track, path, "keys", settings.places);
   for (std::size_t i = 0; i < items.size(); ++i)
-    read_fields(items[i], path_of_entry(path, "keys", i), key_fields(), "",
-                settings.tracks.back().keys.emplace_back(), settings.places);
+    read_key(items[i], path_of_entry(path, "keys", i), key_fields(),
+             settings.tracks.back().keys.emplace_back(), settings);
 }
 
 void read_track_list(const YamlNode& motion, Settings& settings) {
@@ -71,7 +72,7 @@ YamlNode read_file(const Settings& settings, const std::string& file, const std:
     throw error.with_context(settings.place(key));
   }
   YamlNode tree = parse_yaml(text, file);
-  if (tree.place.file.empty()) tree.place = {file};
+  if (!tree.place.file) tree.place = Place{file};
   if (tree.kind == Kind::empty)
     throw bad_input({file}, "there is nothing in this file", "write its " + listed(known));
   check_keys(tree, "", known);

@@ -20,7 +20,7 @@ YamlNode& child(YamlNode& map, const std::string& key, const Place& place) {
   for (std::size_t i = 0; i < map.keys.size(); ++i)
     if (map.keys[i].name == key) return map.items[i];
   map.keys.push_back({key, place});
-  map.items.push_back({Kind::empty, place, "", false, {}, {}});
+  map.items.push_back({Kind::empty, false, place, "", {}, {}});
   return map.items.back();
 }
 
@@ -173,9 +173,9 @@ Settings read_scene(const std::filesystem::path& path, std::span<const Override>
 Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Override> overrides) {
   static constexpr std::array<std::string_view, 2> known = {"body", "material"};
   const Place place = {mesh.string()};
-  const YamlNode path = {Kind::scalar, place, mesh.string(), true, {}, {}};
-  const YamlNode body = {Kind::map, place, "", false, {path}, {{"mesh", place}}};
-  YamlNode scene = {Kind::map, place, "", false, {body}, {{"body", place}}};
+  const YamlNode path = {Kind::scalar, true, place, mesh.string(), {}, {}};
+  const YamlNode body = {Kind::map, false, place, "", {path}, {{"mesh", place}}};
+  YamlNode scene = {Kind::map, false, place, "", {body}, {{"body", place}}};
   for (const Override& given : overrides) apply_override(given, scene);
   Settings settings = read_settings(scene, place.file, known);
   apply_preset(settings);

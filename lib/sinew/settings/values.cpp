@@ -280,7 +280,7 @@ std::span<const YamlNode> list_below(const YamlNode& node, const std::string& pa
   if (list->kind != Kind::list) throw bad_input(list->place, below + " must be a list", cure);
   if (list->items.empty()) throw bad_input(list->place, below + " has no entries", cure);
   places[below] = list->place;
-  for (std::size_t i = 0; i < list->items.size(); ++i)
+  for (std::size_t i = 0; i < list->items.size() && places.size() < max_places; ++i)
     places[below + '[' + std::to_string(i) + ']'] = list->items[i].place;
   return list->items;
 }

@@ -48,6 +48,9 @@ std::optional<double> parse_number(std::string_view text);
 
 using Places = std::map<std::string, Place, std::less<>>;
 
+/// A place takes ten times the memory of its value: those of list entries beyond are not kept.
+inline constexpr std::size_t max_places = 100'000;
+
 /// The path of a key below `path`: "body" and "mesh" give "body.mesh".
 std::string path_below(const std::string& path, std::string_view key);
 /// The path of an entry of a list: "skeleton.bones[2]".

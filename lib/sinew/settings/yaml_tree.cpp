@@ -27,8 +27,8 @@ std::size_t node_count(const YamlNode& node) {
 /// Builds the tree from the parser's events.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::string file, std::size_t bytes)
-      : file_(std::move(file)), max_nodes_(max_nodes(bytes)) {}
+  Builder(const std::string& file, std::size_t bytes)
+      : file_(std::make_shared<const std::string>(file)), max_nodes_(max_nodes(bytes)) {}
 
   YamlNode root;
   Place last_quote;  ///< of the last scalar that was not a plain word
@@ -85,14 +85,14 @@ class Builder : public YAML::EventHandler {
     std::unordered_map<std::string, int> lines;  ///< of the keys so far
   };
 
-  Place at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
+  YamlPlace at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
 
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (!tag.empty() && tag != "?" && tag != "!")
       throw bad_input(at(mark), "the tag " + shown(tag), "remove it: scenes have no tags");
   }
 
-  void count_nodes(std::size_t more, const Place& place) {
+  void count_nodes(std::size_t more, const YamlPlace& place) {
     count_ += more;
     if (count_ > max_nodes_)
       throw bad_input(place, "more than " + std::to_string(max_nodes_) + " values in one scene",
@@ -114,6 +114,7 @@ class Builder : public YAML::EventHandler {
   void close() {
     Open done = std::move(open_.back());
     open_.pop_back();
+    done.node.items.shrink_to_fit(), done.node.keys.shrink_to_fit();
     add(std::move(done.node), done.anchor);
   }
 
@@ -151,7 +152,7 @@ class Builder : public YAML::EventHandler {
     parent.node.keys.push_back({key.text, key.place});
   }
 
-  std::string file_;
+  std::shared_ptr<const std::string> file_;
   std::size_t max_nodes_;
   bool begun_ = false;
   std::size_t count_ = 0;

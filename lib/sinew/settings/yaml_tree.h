@@ -8,8 +8,10 @@
 // (aliases of aliases, lists of lists) from exhausting memory.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <sinew/core/error.h>
@@ -21,18 +23,31 @@ namespace sinew {
 constexpr std::size_t max_nodes(std::size_t bytes) { return 100'000 + bytes / 4; }
 inline constexpr std::size_t deepest_node = 32;  // lists and mappings inside each other
 
+/// A place in a file whose name all values of a tree share.
+struct YamlPlace {
+  YamlPlace() = default;
+  YamlPlace(std::shared_ptr<const std::string> of, int at_line, int at_column)
+      : file(std::move(of)), line(at_line), column(at_column) {}
+  YamlPlace(const Place& place)
+      : YamlPlace(std::make_shared<const std::string>(place.file), place.line, place.column) {}
+  operator Place() const { return {file ? *file : std::string(), line, column}; }
+
+  std::shared_ptr<const std::string> file;
+  int line = 0, column = 0;
+};
+
 struct YamlKey {
   std::string name;
-  Place place;
+  YamlPlace place;
 };
 
 struct YamlNode {
-  enum class Kind { empty, scalar, list, map };
+  enum class Kind : unsigned char { empty, scalar, list, map };
 
   Kind kind = Kind::empty;
-  Place place;                  ///< beginning of the value; for an empty one its key
-  std::string text;             ///< of a scalar
   bool quoted = false;          ///< the scalar is quoted, or is a block of text
+  YamlPlace place;              ///< beginning of the value; for an empty one its key
+  std::string text;             ///< of a scalar
   std::vector<YamlNode> items;  ///< of a list, or the values of a map
   std::vector<YamlKey> keys;    ///< of a map, one per item
 

@@ -85,10 +85,13 @@ void add_piece(const VtkXmlFile& file, PieceElements piece, Grid& grid) {
   if (count > 0) {
     const XmlElement* places = array_of(file, piece, "Piece/Points", "");
     if (places == nullptr) throw vtu_refused("its points are missing");
-    const Points points = file.arrays.points(*places, count);
+    Points points = file.arrays.points(*places, count);
     for (const Vec3& point : points)
-      if (!point.allFinite()) throw vtu_refused("a point is not finite");
-    grid.points.insert(grid.points.end(), points.begin(), points.end());
+      if (!is_computable(point)) throw vtu_refused("a point is too large or not finite");
+    if (grid.points.empty())
+      grid.points = std::move(points);
+    else
+      grid.points.insert(grid.points.end(), points.begin(), points.end());
   }
   const auto add = [&](const char* group, const char* number, int type) {
     add_cells(file, piece, std::string("Piece/") + group, count_if_any(file, piece.front(), number),
