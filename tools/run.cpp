@@ -131,7 +131,7 @@ class Parts {
 Exit show(const Options& options, const Common& common, const std::string& folder, Parts& parts) {
   StageProgress progress("movie", progress_style(common.quiet));  // counts from here
   std::optional<Helper> movie;
-  if (!options.no_movie) {
+  if (!options.no_movie && !stop_requested()) {
     movie.emplace("render", movie_words(common, folder));
     movie->yield();
   }

@@ -29,7 +29,7 @@ class WithoutGil {
     ++at_work;
     released_.emplace();
   }
-  ~WithoutGil() {
+  ~WithoutGil() {  // NOLINT(bugprone-exception-escape): waiting and taking the lock throw nothing
     if (leaving) stay();
     released_.reset();
     --at_work;

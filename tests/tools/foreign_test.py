@@ -7,6 +7,7 @@ usage: foreign_test.py BIN SOURCE      folder of the programs, folder of the pro
 import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -120,6 +121,15 @@ class Surroundings(SmallRun):
             self.assertRegex((self.out / "log.txt").read_text(), r"\A[\x20-\x7e\n]*finished")
             self.assertEqual(self.closed(redirections, "render", self.out, "--no-movie"), 0)
             self.assertEqual(self.closed(redirections, "run", self.scene, "-o", self.out, "--force", "--no-movie"), 0)
+
+    def test_drawing_with_too_few_addresses_is_refused(self):
+        self.simulate("--quiet")
+        for limit in (200, 400, 600, 700, 800, 950):
+            bound = lambda: resource.setrlimit(resource.RLIMIT_AS, (limit * 10**6, limit * 10**6))
+            done = sinew("render", self.out, "--no-movie", "--quiet", preexec_fn=bound)
+            self.assertIn(done.returncode, (0, 2), f"{limit} MB: {done.stderr}")
+            if done.returncode == 2:
+                self.assert_one_line(done, 2, "MB")
 
     def test_a_reader_that_leaves_stops_a_run_which_goes_on(self):
         words = ["--set", "solver.duration=2000", "--set", "output.interval=0.05"]

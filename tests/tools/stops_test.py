@@ -10,6 +10,7 @@ import pty
 import re
 import resource
 import shlex
+import shutil
 import signal
 import socket
 import subprocess
@@ -205,6 +206,30 @@ class Stops(SmallRun):
                                capture_output=True, text=True, timeout=60)
         self.assertEqual(typed.returncode, 0, typed.stderr)
         self.assertEqual(self.record()["status"], "finished")
+
+    def with_stages(self, command, *words):
+        """The command with a simulation that is asked to stop as it ends, and drawing that leaves a file."""
+        programs = self.folder / "programs"
+        programs.mkdir()
+        shutil.copy(BIN / f"sinew-{command}", programs)
+        for name, text in {"simulate": "trap '' TERM\nkill -TERM $PPID\nsleep 0.2\necho >> simulated\necho '{}'",
+                           "render": "touch drawn", "measure": "touch measured"}.items():
+            (programs / f"sinew-{name}").write_text(f"#!/bin/sh\n{text}\n")
+            (programs / f"sinew-{name}").chmod(0o755)
+        return subprocess.run([programs / f"sinew-{command}", self.scene, "-o", self.out, *words], cwd=self.folder,
+                              capture_output=True, text=True, timeout=60)
+
+    def test_a_signal_between_two_stages_ends_a_run(self):
+        done = self.with_stages("run")
+        self.assertEqual(done.returncode, 130, done.stderr)
+        self.assertIn("--resume", done.stderr)
+        self.assertFalse((self.folder / "drawn").exists() or (self.folder / "measured").exists())
+
+    def test_a_signal_between_two_runs_ends_a_study(self):
+        done = self.with_stages("converge", "--radii", "0.03,0.025")
+        self.assertEqual(done.returncode, 130, done.stderr)
+        self.assertIn("--resume", done.stderr)
+        self.assertEqual((self.folder / "simulated").read_text(), "\n")
 
     def test_a_run_whose_state_of_paraview_cannot_be_made_goes_on(self):
         words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]

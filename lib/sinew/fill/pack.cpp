@@ -26,7 +26,7 @@ void check(const Surface& surface, const PackOptions& options) {
                                    : "neither a radius nor a count is given",
                     "give one of them");
   const auto positive = [](const char* name, double value) {
-    if (!(value > 0) || !is_computable(value))
+    if (!(value > 0) || !std::isfinite(value))
       throw bad_input(std::string("the ").append(name) + " is " + number_text(value),
                       "give one above 0");
   };

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
@@ -12,6 +13,7 @@
 #include <string>
 
 #include <sinew/core/error.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {
@@ -73,9 +75,21 @@ bool start_xvfb(const std::string& name) {
   return false;
 }
 
+/// OpenGL's libraries and threads reserve addresses, and crash where there are too few.
+void check_addresses() {
+  constexpr double needed = 950e6;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  if (static_cast<double>(limit.rlim_cur) < needed)
+    throw bad_input("drawing needs an address space of " + bytes_text(needed) +
+                        ", and ulimit -v allows " + bytes_text(static_cast<double>(limit.rlim_cur)),
+                    "raise it: ulimit -v unlimited");
+}
+
 }  // namespace
 
 void ensure_display() {
+  check_addresses();
   if (display_answers()) return;
   for (int attempt = 0; attempt < 5; ++attempt) {
     // Not the first free number: a display that is just ending there would take over the new
