@@ -19,12 +19,12 @@ std::string version() { return SINEW_VERSION; }
 std::filesystem::path this_program() {
   namespace fs = std::filesystem;
   std::error_code failed;
-  const fs::path found = fs::read_symlink("/proc/self/exe", failed);
+  fs::path found = fs::read_symlink("/proc/self/exe", failed);
   if (!failed) return found;
   // NOLINTNEXTLINE(performance-no-int-to-ptr): the kernel gives it as a number
   const auto* started = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
-  const fs::path program = fs::absolute(started == nullptr ? "sinew" : started, failed);
-  const fs::path followed = fs::canonical(program, failed);
+  fs::path program = fs::absolute(started == nullptr ? "sinew" : started, failed);
+  fs::path followed = fs::canonical(program, failed);
   return failed ? program : followed;
 }
 
