@@ -215,9 +215,24 @@ void measure_inner(const Triangles& surface, CurveGraph& graph) {
     graph.inner.push_back((nearest.to(point).place - point).norm());
 }
 
+/// A spike of almost no area would be cut into pieces without end.
+void refuse_needle(const Triangles& surface) {
+  constexpr double max_pieces = 1e4;  // of an edge, in the mean over as many faces as are wanted
+  double area = 0, lengths = 0;
+  for (const auto& face : surface.faces) {
+    area += face_area(surface, face);
+    for (int k = 0; k < 3; ++k)
+      lengths += (surface.points[face[k]] - surface.points[face[(k + 1) % 3]]).norm() / 2;
+  }
+  if (!(lengths < max_pieces * wanted_faces * std::sqrt(area / wanted_faces)))
+    throw bad_input("the surface is too long for its area: no limbs can be found in it",
+                    "repair it, or give the bones of a rig");
+}
+
 }  // namespace
 
 CurveGraph curve_skeleton(const Triangles& surface) {
+  refuse_needle(surface);
   const Box box = bounds(surface.points);
   const Frame frame{box.center(), box.diagonal().norm()};
   CurveGraph graph;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/lists/particle_layout.h>
 
+#include <string>
+#include <type_traits>
 #include <utility>
 
 #include <sinew/core/parallel.h>
@@ -113,14 +115,36 @@ void ParticleLayout<Real>::save(SimulationState& state) const {
 
 template <class Real>
 void ParticleLayout<Real>::restore(const SimulationState& state) {
-  using Columns = MovingColumns<typename BlockState<Real>::Coord, Real>;
   const auto* moving = std::get_if<Columns>(&state.moving);
   if (moving == nullptr) throw not_a_state("it is in another precision");
   check_moving(*moving, size());
+  check_places(*moving, state.whole_numbers);
   restore_order(state.order);
   restore_units(state.whole_numbers);
   now.set_columns(*moving);
   next = now;
+}
+
+/// Lists count from end to end of the body, which a state from elsewhere may have torn apart.
+template <class Real>
+void ParticleLayout<Real>::check_places(const Columns& moving, const WholeNumbers& saved) const {
+  constexpr double farthest = 1e6, finest = 1e-12;  // of the body's size
+  const double size_now = units_box_.diagonal().norm() + pair_.b;
+  const Vec3 middle = units_box_.center();
+  const bool known = std::is_same_v<Real, double>
+                         ? saved.length == units_.length && saved.origin == units_.origin
+                         : saved.length > finest * size_now && saved.length < size_now;
+  const auto is_near = [&](const Vec3& place) {
+    return (place - middle).norm() <= farthest * size_now;
+  };
+  if (!is_sound(saved) || !known || !is_near(saved.box.min()) || !is_near(saved.box.max()))
+    throw not_a_state("its units are none");
+  for (std::size_t k = 0; k < size(); ++k) {
+    Vec3 place;
+    for (int axis = 0; axis < 3; ++axis) place[axis] = static_cast<double>(moving.x[axis][k]);
+    if (!is_near(saved.origin + saved.length * place))
+      throw not_a_state("particle " + std::to_string(k) + " is far away from the body");
+  }
 }
 
 /// `order` contains each particle's place in the caller's order once.
@@ -139,7 +163,6 @@ void ParticleLayout<Real>::restore_order(const std::vector<std::uint32_t>& order
 
 template <class Real>
 void ParticleLayout<Real>::restore_units(const WholeNumbers& saved) {
-  if (!is_sound(saved)) throw not_a_state("its units are none");
   units_.length = saved.length;
   units_.origin = saved.origin;
   units_box_ = saved.box;

@@ -51,8 +51,11 @@ class ParticleLayout {
   BlockState<Real> now, next;
 
  private:
+  using Columns = MovingColumns<typename BlockState<Real>::Coord, Real>;
+
   void restore_order(const std::vector<std::uint32_t>& order);
   void restore_units(const WholeNumbers& saved);
+  void check_places(const Columns& moving, const WholeNumbers& saved) const;
 
   PairForce pair_;
   double step_ = 0;  ///< s

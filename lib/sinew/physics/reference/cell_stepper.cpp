@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/physics/reference/cell_stepper.h>
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -200,6 +201,9 @@ void CellStepper::restore(const SimulationState& state) {
   const auto* moving = std::get_if<MovingInDouble>(&state.moving);
   if (moving == nullptr) throw not_a_state("it is in single precision");
   check_moving(*moving, particles_.size());
+  for (const auto& axis : moving->x)
+    if (!std::all_of(axis.begin(), axis.end(), [](double x) { return is_computable(x); }))
+      throw not_a_state("a particle is far away from the body");
   if (solid_) {
     solid_->branches().restore(state);
     solid_->restore(state.rest_length);
