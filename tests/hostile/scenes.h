@@ -97,6 +97,8 @@ inline const std::vector<Hostile> scenes = {
     {"AliasesOfALongText",
      "x: &t \"" + std::string(100'000, 'a') + "\"\nbody: [" + times(90'000, "*t, ") + "*t]\n", "",
      "values in one scene"},
+    {"QuotedLetters", "body: {mesh: \"\u00e4\u00f6\u9aa8\U0001f9b4\", radus: 1}\n", "1:22",
+     "unknown key 'radus'"},
     {"DeepBrackets", "body: " + times(100'000, "["), "", "32 deep"},
     {"DeepClosedBrackets", "body: " + times(50'000, "[") + times(50'000, "]"), "1:38", "32 deep"},
     {"DeepBraces", times(50'000, "{a: ") + times(50'000, "}"), "1:129", "32 deep"},

@@ -52,6 +52,20 @@ class Scenes(SmallRun):
         numpy.testing.assert_array_equal(glass[0].points, glass[1].points)
         self.assertNotEqual(glass[0].points.tobytes(), glass[2].points.tobytes())
 
+    def test_paths_and_names_of_any_letters(self):
+        for word in ("ü", "骨", "🦴", "it's \"so\"", "a\\b"):
+            folder = self.folder / word
+            folder.mkdir()
+            mesh = folder / f"{word}.obj"
+            mesh.write_bytes((SOURCE / "data/meshes/box.obj").read_bytes())
+            self.assertEqual(len(sinew.fill(mesh, count=100)), len(sinew.fill(str(mesh), count=100)))
+            bones = [{"name": word, "head": [0, 0, 0], "tail": [0, 0, 1]}]
+            scene = sinew.make_scene({"body": {"mesh": mesh, "radius": 0.05}, "skeleton": {"bones": bones},
+                                      "solver": {"duration": 0.01}, "output": {"interval": 0.01}},
+                                     folder=folder)
+            self.assertEqual(sinew.Simulation(scene).bones, [word])
+            self.assertEqual(len(sinew.simulate(scene, folder / "run")), 2)
+
     def test_a_scene_is_filled_as_it_says(self):
         scene = sinew.read_scene(self.scene)
         self.assertEqual(sinew.fill(scene).radius, 0.025)

@@ -15,17 +15,22 @@ __all__ = ["Body", "Error", "Frame", "Run", "Scene", "Simulation", "fill", "make
            "read_scene", "simulate"]
 
 
+def _text(value):
+    """As JSON, whose pairs of surrogates YAML does not know."""
+    return _json.dumps(value, ensure_ascii=False)
+
+
 def _yaml(value):
     """As YAML; the words for what is not given, auto and none, are not texts."""
     if hasattr(value, "tolist"):  # NumPy's
         value = value.tolist()
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{_json.dumps(str(key))}: {_yaml(item)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{_text(str(key))}: {_yaml(item)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(_yaml, value)) + "]"
     if isinstance(value, _os.PathLike):
         value = _os.fspath(value)
-    return value if value in ("auto", "none") else _json.dumps(value)
+    return value if value in ("auto", "none") else _text(value)
 
 
 def _values(settings):

@@ -27,8 +27,10 @@ std::size_t node_count(const YamlNode& node) {
 /// Builds the tree from the parser's events.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(const std::string& file, std::size_t bytes)
-      : file_(std::make_shared<const std::string>(file)), max_nodes_(max_nodes(bytes)) {}
+  Builder(std::string_view text, const std::string& file)
+      : text_(text),
+        file_(std::make_shared<const std::string>(file)),
+        max_nodes_(max_nodes(text.size())) {}
 
   YamlNode root;
   Place last_quote;  ///< of the last scalar that was not a plain word
@@ -85,9 +87,22 @@ class Builder : public YAML::EventHandler {
     std::unordered_map<std::string, int> lines;  ///< of the keys so far
   };
 
-  YamlPlace at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
+  YamlPlace at(const YAML::Mark& mark) { return {file_, mark.line + 1, column_of(mark)}; }
 
-  void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
+  /// Counts characters, as editors do; the parser counts bytes. Marks ascend within a line, nearly.
+  int column_of(const YAML::Mark& mark) {
+    const auto end = std::min<std::size_t>(static_cast<std::size_t>(mark.pos), text_.size());
+    if (mark.line != line_ || counted_ > end) {
+      line_ = mark.line;
+      counted_ = end - std::min<std::size_t>(end, static_cast<std::size_t>(mark.column));
+      letters_ = 0;
+    }
+    for (; counted_ < end; ++counted_)
+      letters_ += (static_cast<unsigned char>(text_[counted_]) & 0xC0) != 0x80;
+    return letters_ + 1;
+  }
+
+  void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     if (!tag.empty() && tag != "?" && tag != "!")
       throw bad_input(at(mark), "the tag " + shown(tag), "remove it: scenes have no tags");
   }
@@ -152,6 +167,9 @@ class Builder : public YAML::EventHandler {
     parent.node.keys.push_back({key.text, key.place});
   }
 
+  std::string_view text_;
+  int line_ = -1, letters_ = 0;  ///< letters before counted_ in this line
+  std::size_t counted_ = 0;
   std::shared_ptr<const std::string> file_;
   std::size_t max_nodes_;
   bool begun_ = false;
@@ -201,7 +219,7 @@ YamlNode parse_yaml(std::string_view text, const std::string& file) {
   check_text(text, file);
   check_brackets(text, file);
   std::istringstream in{std::string(text)};
-  Builder builder(file, text.size());
+  Builder builder(text, file);
   try {
     YAML::Parser parser(in);
     while (parser.HandleNextDocument(builder)) continue;
