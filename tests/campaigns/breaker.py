@@ -175,10 +175,13 @@ def main():
     parser.add_argument("--kinds", type=lambda text: text.split(","), default=[])
     arguments = parser.parse_args()
     campaign = Campaign(arguments)
+    pool = ThreadPoolExecutor(arguments.jobs)
     try:
-        with ThreadPoolExecutor(arguments.jobs) as pool:
-            list(pool.map(campaign.one, range(arguments.seed, arguments.seed + arguments.trials)))
+        list(pool.map(campaign.one, range(arguments.seed, arguments.seed + arguments.trials)))
+    except KeyboardInterrupt:
+        print("interrupted: what was tried so far")
     finally:
+        pool.shutdown(cancel_futures=True)
         campaign.close()
     return 1 if campaign.broken else 0
 
