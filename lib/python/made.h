@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Objects that Python has really made: pybind11 gives memory that nobody has filled to those made
+// Objects that Python has really made. pybind11 gives memory that nobody has filled to those made
 // by
-// __new__ alone, and to whatever is done with them.
+// __new__ alone.
 //
 //     template <>
 //     class pybind11::detail::type_caster<Thing> : public pybind11::detail::made_caster<Thing> {};

@@ -22,7 +22,8 @@ namespace sinew {
 bool ignores_hangup();
 
 /// From now on SIGINT and SIGTERM only set a flag; a second one ends the program at once. SIGHUP,
-/// unless ignored, also sets the flag, however often it is received.
+/// unless ignored, also sets the flag, however often it is received, and so does SIGPIPE: whoever
+/// reads the progress has left.
 void catch_stop_signals();
 
 bool stop_requested();
