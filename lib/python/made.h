@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Objects that Python has really made. pybind11 gives memory that nobody has filled to those made
-// by
-// __new__ alone.
+// Objects that Python has really made. Those made by __new__ alone get memory from pybind11 that
+// nobody has filled.
 //
 //     template <>
 //     class pybind11::detail::type_caster<Thing> : public pybind11::detail::made_caster<Thing> {};

@@ -38,7 +38,7 @@ void check_soup(const PolygonSoup& soup) {
                     "reduce the number of triangles");
   for (std::size_t i = 0; i < soup.points.size(); ++i)
     if (!is_computable(soup.points[i]))
-      throw bad_input("vertex " + std::to_string(i) + " has a coordinate that is too large or not finite",
+      throw bad_input("vertex " + std::to_string(i) + " has a coordinate that is not finite",
                       "export the mesh again");
   for (const auto& polygon : soup.polygons) check_polygon(polygon, soup.points.size());
 }
