@@ -84,6 +84,9 @@ TEST_F(File, WritesThroughNoLink) {
   }
   link("h", true);
   EXPECT_THROW(GrowingFile(folder / "h", 3), Error);
+  link("h", false);
+  GrowingFile(folder / "h", 3).add("pared", 5);  // goes on with a copy
+  EXPECT_EQ(read_file(folder / "h"), "prepared");
   for (const bool soft : {true, false}) {
     link("lock", soft);
     EXPECT_LT(open_lock(folder / "lock"), 0);

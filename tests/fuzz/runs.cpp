@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <sinew/core/hash.h>
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 #include <sinew/io/calculix/frd.h>
 #include <sinew/io/checkpoint.h>
 #include <sinew/io/series.h>

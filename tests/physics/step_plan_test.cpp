@@ -141,7 +141,7 @@ Setup swinging(std::optional<double> time_step, double interval = 0.05) {
 
 TEST(PlanOfAScene, DividesStepsWhereBonesAreFastAndForAWhileAfter) {
   const auto setup = swinging({});
-  const std::vector<double> speeds = bone_speeds(setup);
+  const std::vector<double> speeds = setup.bone_speeds;
   ASSERT_EQ(speeds.size(), 60u);
   EXPECT_EQ(speeds[5], 0);
   const double tail = setup.body.skeleton.bones[1].length;

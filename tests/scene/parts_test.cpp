@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/mesh/surface.h>
+#include <sinew/scene/machine.h>
 
 #include <sinew/physics/time_step.h>
 
@@ -191,6 +192,34 @@ TEST(Parts, ThatAreEmptyAreRefused) {
   part = {};
   part.facing = Vec3(0, 0, 1);
   test::expect_bad_input([&] { bare.particles(part, ""); }, {"a surface without a mesh"});
+}
+
+/// Each load and probe keeps what it acts on: thousands on the whole body are refused before they
+/// fill the memory, and as many on parts of their own are not.
+TEST(Parts, OnWhichThousandsActAreRefused) {
+  World world;
+  sinew::World machine;
+  LoadSettings load;
+  load.name = "all around";
+  load.pressure = 100;
+  ProbeSettings probe;
+  probe.name = "all";
+  world.settings.loads.assign(10000, load);
+  world.settings.probes.assign(10000, probe);
+  const auto add = [&] { add_machine(world.settings, world.body, world.parts, machine); };
+  test::expect_bad_input(add,
+                         {"the loads up to this one", "over 64 times as many", "; give those"});
+  EXPECT_LT(machine.loads.size(), 1000U);
+  test::expect_bad_input([&] { probes_of(world.settings, world.body, world.parts); },
+                         {"the probes up to this one"});
+  load.part.ids = std::vector<double>{3};
+  world.settings.loads.assign(10000, load);
+  for (LoadSettings& one : world.settings.loads) {
+    one.pressure.reset();
+    one.force = Vec3::UnitX();
+  }
+  machine = {};
+  EXPECT_NO_THROW(add());
 }
 
 }  // namespace sinew::parts_test

@@ -163,67 +163,6 @@ void finish_parts(const fs::path& path, std::string_view last) {
   if (::rename(temporary_of(path).c_str(), path.c_str()) != 0) throw refused(path, errno);
 }
 
-GrowingFile::GrowingFile(fs::path path, std::uint64_t kept) : path_(std::move(path)), size_(kept) {
-  refuse_special(path_);
-  file_ = kept == 0 ? create_file(path_)
-                    : ::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
-  if (file_ < 0) throw refused(path_, errno);
-  struct stat status;
-  int error = ::fstat(file_, &status) != 0 ? errno : 0;
-  const bool shorter = error == 0 && static_cast<std::uint64_t>(status.st_size) < kept;
-  if (error == 0 && !shorter && ::ftruncate(file_, static_cast<off_t>(kept)) != 0) error = errno;
-  if (error == 0 && !shorter) return;
-  ::close(file_);
-  if (error != 0) throw refused(path_, error);
-  throw bad_input({path_.string()},
-                  "has " + std::to_string(status.st_size) + " bytes where " + std::to_string(kept) +
-                      " were written",
-                  "begin again with --force");
-}
-
-GrowingFile::~GrowingFile() {
-  if (file_ >= 0) ::close(file_);
-}
-
-void GrowingFile::add(const void* bytes, std::size_t count) {
-  try {
-    write_all(file_, path_, bytes, count, size_);
-  } catch (const Error&) {
-    // No incomplete record stays. A file that becomes shorter needs no space.
-    [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(size_));
-    throw;
-  }
-  size_ += count;
-}
-
-void GrowingFile::write_at(std::uint64_t place, const void* bytes, std::size_t count) {
-  write_all(file_, path_, bytes, count, place);
-}
-
-void GrowingFile::close() {
-  if (::close(std::exchange(file_, -1)) != 0) throw refused(path_, errno);
-}
-
-void sync_all(const fs::path& folder) { sync_folder(folder, ::syncfs); }
-
-void write_file(const fs::path& path, std::string_view text) {
-  NewFile file(path);
-  file.write(text.data(), text.size());
-  file.finish();
-}
-
-fs::path file_below(const fs::path& folder, const fs::path& name) {
-  const auto stays_below = [](const fs::path& path) {
-    return !path.empty() && path.is_relative() && *path.begin() != "..";
-  };
-  const fs::path below = name.lexically_normal();
-  if (!stays_below(below)) return {};
-  std::error_code failed;
-  const fs::path home = fs::weakly_canonical(folder.empty() ? "." : folder, failed);
-  const fs::path file = failed ? fs::path() : fs::weakly_canonical(home / below, failed);
-  return !failed && stays_below(file.lexically_relative(home)) ? folder / below : fs::path();
-}
-
 namespace {
 
 constexpr std::size_t bytes_per_read = 1 << 16;
@@ -278,7 +217,80 @@ class RegularFile {
   std::uint64_t size_ = 0;
 };
 
+/// Gives the file at `path` a copy of its own, where it shares what it holds with other names.
+void part_from_other_names(const fs::path& path) {
+  std::error_code none;
+  if (fs::is_symlink(path, none) || fs::hard_link_count(path, none) <= 1 || none) return;
+  NewFile copy(path);
+  read_through(path, [&](std::string_view piece) { copy.write(piece.data(), piece.size()); });
+  copy.finish();
+}
+
 }  // namespace
+
+GrowingFile::GrowingFile(fs::path path, std::uint64_t kept) : path_(std::move(path)), size_(kept) {
+  refuse_special(path_);
+  if (kept > 0) part_from_other_names(path_);
+  file_ = kept == 0 ? create_file(path_)
+                    : ::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+  if (file_ < 0) throw refused(path_, errno);
+  struct stat status;
+  int error = ::fstat(file_, &status) != 0 ? errno : 0;
+  const bool shorter = error == 0 && static_cast<std::uint64_t>(status.st_size) < kept;
+  if (error == 0 && !shorter && ::ftruncate(file_, static_cast<off_t>(kept)) != 0) error = errno;
+  if (error == 0 && !shorter) return;
+  ::close(file_);
+  if (error != 0) throw refused(path_, error);
+  throw bad_input({path_.string()},
+                  "has " + std::to_string(status.st_size) + " bytes where " + std::to_string(kept) +
+                      " were written",
+                  "begin again with --force");
+}
+
+GrowingFile::~GrowingFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void GrowingFile::add(const void* bytes, std::size_t count) {
+  try {
+    write_all(file_, path_, bytes, count, size_);
+  } catch (const Error&) {
+    // No incomplete record stays. A file that becomes shorter needs no space.
+    [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(size_));
+    throw;
+  }
+  size_ += count;
+}
+
+void GrowingFile::write_at(std::uint64_t place, const void* bytes, std::size_t count) {
+  write_all(file_, path_, bytes, count, place);
+}
+
+void GrowingFile::close() {
+  if (::close(std::exchange(file_, -1)) != 0) throw refused(path_, errno);
+}
+
+void sync_all(const fs::path& folder) { sync_folder(folder, ::syncfs); }
+
+void write_file(const fs::path& path, std::string_view text) {
+  NewFile file(path);
+  file.write(text.data(), text.size());
+  file.finish();
+}
+
+bool stays_below(const fs::path& path) {
+  const fs::path normal = path.lexically_normal();
+  return !normal.empty() && normal.is_relative() && *normal.begin() != "..";
+}
+
+fs::path file_below(const fs::path& folder, const fs::path& name) {
+  const fs::path below = name.lexically_normal();
+  if (!stays_below(below)) return {};
+  std::error_code failed;
+  const fs::path home = fs::weakly_canonical(folder.empty() ? "." : folder, failed);
+  const fs::path file = failed ? fs::path() : fs::weakly_canonical(home / below, failed);
+  return !failed && stays_below(file.lexically_relative(home)) ? folder / below : fs::path();
+}
 
 std::string read_file(const fs::path& path, std::uint64_t limit) {
   const RegularFile file(path);

@@ -58,8 +58,8 @@ void finish_parts(const std::filesystem::path& path, std::string_view last);
 /// disk fills up, what is left is a prefix of it.
 class GrowingFile {
  public:
-  /// Opens the file and keeps the first `kept` bytes of it. Throws not written, and bad input when
-  /// it has fewer.
+  /// Opens the file and keeps the first `kept` bytes of it; other names that it has keep what they
+  /// name. Throws not written, and bad input when it has fewer.
   GrowingFile(std::filesystem::path path, std::uint64_t kept);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
@@ -101,6 +101,9 @@ void sync_all(const std::filesystem::path& folder);
 
 /// Writes `text` as the file `path`. Throws not written.
 void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// Whether a path leads to its folder or below, links apart.
+bool stays_below(const std::filesystem::path& path);
 
 /// The file `name` in `folder` or below it, where links do not lead elsewhere either; "" otherwise.
 /// Files that another file names are copied into results: one from elsewhere must not name others.

@@ -31,9 +31,7 @@ double time_of(const std::string& text) {
 
 /// A PVD from elsewhere must not cause reads outside its folder.
 void check_inside(const std::filesystem::path& file) {
-  bool inside = !file.empty() && file.is_relative();
-  for (const auto& part : file) inside = inside && part != "..";
-  if (!inside)
+  if (!stays_below(file))
     throw no_series("'" + file.string().substr(0, 200) + "' does not lie below the PVD's folder");
 }
 

@@ -8,7 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include <sinew/core/json_extent.h>
+#include <sinew/core/file.h>
+#include <sinew/core/json.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
@@ -230,12 +231,14 @@ std::string caption_of(const std::filesystem::path& picture, const Measured& mea
                                         : name;
 }
 
-/// The pictures in the folder: the scene, the contact sheet, then single moments in order.
+/// The pictures in the folder, but for links to others elsewhere: the scene, the contact sheet,
+/// then single moments in order.
 std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measured) {
   std::vector<Picture> pictures;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder.pictures(), none))
-    if (entry.path().extension() == ".png")
+    if (entry.path().extension() == ".png" &&
+        !file_below(folder.pictures(), entry.path().filename()).empty())
       pictures.push_back(
           {"pictures/" + entry.path().filename().string(), caption_of(entry.path(), measured)});
   const auto place = [](const Picture& picture) {

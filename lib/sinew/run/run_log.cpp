@@ -106,7 +106,8 @@ RunLog::RunLog(const RunFolder& folder, const std::vector<std::string>& command,
 }
 
 void RunLog::log(const std::string& line) {
-  const std::string dated = time_text("%Y-%m-%d %H:%M:%S", Zone::local) + "  " + line + "\n";
+  const std::string dated =
+      time_text("%Y-%m-%d %H:%M:%S", Zone::local) + "  " + printable(line) + "\n";
   log_.add(dated.data(), dated.size());
 }
 

@@ -11,7 +11,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 #include <sinew/core/system.h>
 
 namespace sinew {

@@ -7,7 +7,7 @@
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/file.h>
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/paraview/view_script.h>

@@ -8,7 +8,7 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/random.h>

@@ -17,6 +17,20 @@ std::string path_of_one(const char* list, std::size_t index) {
   return std::string(list) + '[' + std::to_string(index) + ']';
 }
 
+/// Throws bad input where the entries of a list so far are on more particles than any machine's:
+/// each takes memory and time by its particles.
+template <class Entry>
+void refuse_too_many(const char* list, const std::vector<Entry>& entries, std::size_t particles) {
+  constexpr std::size_t times_over = 64, smallest = 1000;
+  std::size_t sum = 0;
+  for (const Entry& entry : entries) sum += entry.particles.size();
+  if (sum > times_over * std::max(particles, smallest))
+    throw bad_input("the " + std::string(list) + " up to this one are on " + std::to_string(sum) +
+                        " particles in sum, over " + std::to_string(times_over) +
+                        " times as many as the body has",
+                    "give those on the same part as one");
+}
+
 Vec3 mean_of(const std::vector<std::uint32_t>& particles, const Points& rest) {
   Vec3 sum = Vec3::Zero();
   for (const std::uint32_t i : particles) sum += rest[i];
@@ -106,8 +120,10 @@ void add_machine(const Settings& settings, const Body& body, const Parts& parts,
   at_keys(settings, "", [&] { hold(world, body.rest.size()); });
   for (std::size_t k = 0; k < settings.loads.size(); ++k) {
     const std::string path = path_of_one("loads", k);
-    world.loads.push_back(with_context(
-        settings, path.c_str(), [&] { return load_of(settings.loads[k], path, body, parts); }));
+    with_context(settings, path.c_str(), [&] {
+      world.loads.push_back(load_of(settings.loads[k], path, body, parts));
+      refuse_too_many("loads", world.loads, body.rest.size());
+    });
   }
 }
 
@@ -115,9 +131,11 @@ std::vector<Probe> probes_of(const Settings& settings, const Body& body, const P
   std::vector<Probe> probes;
   for (std::size_t k = 0; k < settings.probes.size(); ++k) {
     const ProbeSettings& given = settings.probes[k];
-    probes.push_back(
-        given.at ? point_probe(settings, k, body)
-                 : part_probe(given.name, parts.particles(given.part, path_of_one("probes", k))));
+    const std::string path = path_of_one("probes", k);
+    probes.push_back(given.at ? point_probe(settings, k, body)
+                              : part_probe(given.name, parts.particles(given.part, path)));
+    with_context(settings, path.c_str(),
+                 [&] { refuse_too_many("probes", probes, body.rest.size()); });
   }
   return probes;
 }

@@ -207,6 +207,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
     setup.body = undamped(std::move(setup.body));
   }
   setup.steps = steps_of(settings, setup.body);
+  setup.bone_speeds = bone_speeds(setup);
   setup.plan = plan_of(settings, setup);
   if (is_static(settings)) setup.load_steps = load_steps_of(settings, setup);
   if (settings.output.region)

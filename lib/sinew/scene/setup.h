@@ -47,6 +47,7 @@ struct Setup {
   Body body;
   Motion motion;
   StepChoice steps;
+  std::vector<double> bone_speeds;  ///< before each frame, as bone_speeds() finds them, m/s
   StepPlan plan;
   std::optional<LoadSteps> load_steps = {};  ///< of the static method
   std::optional<DynamicOptions> dynamic_groups = {};

@@ -181,7 +181,7 @@ std::vector<int> parts_of_steps(const Setup& setup) {
   const double kept = std::exp(-setup.frames.interval / crossing_time(setup.body));  // of a speed
   std::vector<int> parts;
   double speed = 0;
-  for (const double of_bones : bone_speeds(setup)) {
+  for (const double of_bones : setup.bone_speeds) {
     speed = std::max(of_bones, kept * speed);
     const double carried = speed * setup.steps.step / setup.body.material.pair.r;
     parts.push_back(static_cast<int>(std::clamp(std::ceil(carried / most_carried), 1.0, 1e6)));
@@ -238,7 +238,7 @@ LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
   steps.residual = settings.solver.residual.value_or(single ? 1e-2 : 1e-6);
   steps.acceptable = settings.solver.residual ? 0 : 1e-4;
   const double crossing = crossings * crossing_time(setup.body) / setup.steps.step;
-  for (const double speed : bone_speeds(setup)) {
+  for (const double speed : setup.bone_speeds) {
     const int frame = static_cast<int>(steps.ramp.size());
     const bool loads = changes(setup.body, frames.at(frame), frames.at(frame + 1));
     const double carried = speed * frames.before(frame + 1) / (carried_in_radii * r);
@@ -250,7 +250,7 @@ LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
 
 double farthest_carried(const Setup& setup) {
   double farthest = 0;
-  const std::vector<double> speeds = bone_speeds(setup);
+  const std::vector<double>& speeds = setup.bone_speeds;
   for (std::size_t i = 0; i < speeds.size(); ++i)
     farthest = std::max(farthest, speeds[i] / setup.plan.parts(static_cast<int>(i)));
   return farthest * setup.steps.step / setup.body.material.pair.r;

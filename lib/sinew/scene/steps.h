@@ -47,7 +47,7 @@ StepChoice choose_step(const SolverSettings& solver, double limit, double interv
 StepChoice steps_of(const Settings& settings, const Body& body);
 
 /// An upper bound of the speed at which bones and supports carry any particle, m/s: from each frame
-/// to the next.
+/// to the next. Takes its time where frames and bones are many: once, into Setup::bone_speeds.
 std::vector<double> bone_speeds(const Setup& setup);
 
 /// With time_step: auto, the steps of each interval are divided until bones carry no particle

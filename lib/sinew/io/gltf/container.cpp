@@ -104,11 +104,6 @@ std::string without_percents(std::string_view uri) {
   return text;
 }
 
-/// Whether a normalized path stays in the folder it starts from.
-bool stays_below(const fs::path& path) {
-  return !path.empty() && path.is_relative() && *path.begin() != "..";
-}
-
 std::string file_bytes(const std::string& uri, std::size_t size, const fs::path& folder) {
   const fs::path file = gltf_file_of(uri, folder);
   std::string bytes = read_head(file, size);

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 #include <sinew/core/text.h>
 
 namespace sinew {

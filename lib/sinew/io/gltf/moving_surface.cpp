@@ -8,7 +8,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 #include <sinew/io/gltf/document.h>
 #include <sinew/io/gltf/materials.h>
 #include <sinew/io/gltf/split_surface.h>

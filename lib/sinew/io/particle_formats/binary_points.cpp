@@ -4,7 +4,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/particle_formats/writers.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 
 #include <algorithm>
 #include <cstddef>

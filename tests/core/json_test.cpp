@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/core/json_extent.h>
+#include <sinew/core/json.h>
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace sinew::json_extent_test {
+namespace sinew::json_test {
 
 std::string nested(int depth) {
   return std::string(static_cast<std::size_t>(depth), '[') +
@@ -27,4 +27,4 @@ TEST(OwnJson, IsDiscardedWhereItIsDeepOrNone) {
     EXPECT_TRUE(own_json<Json>(text).is_discarded());
 }
 
-}  // namespace sinew::json_extent_test
+}  // namespace sinew::json_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Extent of a JSON text, found before it is parsed: text from elsewhere may nest so deeply that
-// writing its values exhausts the stack, or hold so many that they exhaust memory.
+// JSON text from elsewhere and to elsewhere: its extent is found before it is parsed, as it may
+// nest so deeply that reading its values exhausts the stack, or hold so many that they exhaust
+// memory.
 #pragma once
 
 #include <cstdint>
