@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sinew/analysis/elastic_modes.h>
+#include <sinew/analysis/rest_stability.h>
+#include <sinew/analysis/time_step.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/physics/modes/elastic_modes.h>
-#include <sinew/physics/rest_stability.h>
-#include <sinew/physics/time_step.h>
 #include <sinew/render/display.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/run/scene_picture.h>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <sinew/analysis/time_step.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
 #include <sinew/fill/fill_limits.h>
@@ -11,7 +12,6 @@
 #include <sinew/io/checksums.h>
 #include <sinew/io/single_files.h>
 #include <sinew/mesh/diagnosis.h>
-#include <sinew/physics/time_step.h>
 #include <sinew/rig/motion.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>

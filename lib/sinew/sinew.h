@@ -17,14 +17,12 @@
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>
 #include <sinew/io/vtu.h>
+#include <sinew/material/material.h>
 #include <sinew/mesh/diagnosis.h>
 #include <sinew/mesh/read_surface.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/table.h>
-#include <sinew/physics/material.h>
-#include <sinew/physics/simulation.h>
-#include <sinew/physics/world/world.h>
 #include <sinew/render/figure.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/skeleton.h>
@@ -36,6 +34,8 @@
 #include <sinew/scene/setup.h>
 #include <sinew/settings/read_scene.h>
 #include <sinew/settings/write_scene.h>
+#include <sinew/stepping/simulation.h>
 #include <sinew/study/compare_runs.h>
 #include <sinew/study/study.h>
 #include <sinew/study/study_files.h>
+#include <sinew/world/world.h>

@@ -2,7 +2,7 @@
 // Stepping without a neighbor search: all pairs, O(n^2). The baseline for the paper's cells.
 #pragma once
 
-#include <sinew/physics/simulation.h>
+#include <sinew/stepping/simulation.h>
 
 namespace sinew::bench {
 

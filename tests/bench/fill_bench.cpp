@@ -11,8 +11,8 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/fill/detail/inside_runs.h>
 #include <sinew/fill/filled_sites.h>
-#include <sinew/fill/inside/inside_runs.h>
 #include <sinew/fill/verify.h>
 #include <sinew/mesh/clean.h>
 

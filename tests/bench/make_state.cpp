@@ -14,7 +14,7 @@
 #include <sinew/core/cell_grid.h>
 
 #include "bench/state_file.h"
-#include "lammps_files.h"
+#include "support/lammps_files.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/vector.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/state_file.h"
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::bench {
 namespace {

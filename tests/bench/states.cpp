@@ -3,12 +3,12 @@
 #include <cmath>
 #include <string>
 
+#include <sinew/groups/static_groups.h>
 #include <sinew/mesh/refine.h>
-#include <sinew/physics/hierarchy/static_groups.h>
-#include <sinew/physics/world/world.h>
+#include <sinew/world/world.h>
 
 #include "bench/states.h"
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::bench {
 namespace {

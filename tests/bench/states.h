@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include <sinew/physics/simulation.h>
+#include <sinew/stepping/simulation.h>
 
 namespace sinew::bench {
 

@@ -6,4 +6,4 @@
 set -euo pipefail
 
 build=${1:?usage: every_setting.sh BUILD}
-SINEW_ALL_COMBINATIONS=1 exec "$build/tests/physics_tests" --gtest_filter='*/EverySetting.*'
+SINEW_ALL_COMBINATIONS=1 exec "$build/tests/stepping_tests" --gtest_filter='*/EverySetting.*'

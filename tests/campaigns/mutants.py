@@ -4,7 +4,7 @@
 room's tests and runs them, cheapest first: shows which changes the tests notice and which survive.
 
 usage: mutants.py SOURCE ROOM [--count 60] [--seed 1] [--work FOLDER] [--at FILE[:LINE]] [--slowest 6] [--list]
-SOURCE: of the project, which is only read; ROOM: physics or metrics; --work: where the copy and its build
+SOURCE: of the project, which is only read; ROOM: metrics, or one of material to stepping; --work: where the copy and its build
 are, kept for the next time (a temporary folder otherwise); --at: only changes there; --slowest: leaves out
 tests that take longer, s; --list: shows the changes and builds nothing.
 Leaves with 1 when fewer than 90 of 100 are noticed. A change that runs into a time limit counts as noticed,
@@ -30,7 +30,11 @@ from pathlib import Path
 
 from mutations import mutants_of, sample
 
-PROGRAMS = {"physics": ["physics_tests", "laws_tests"], "metrics": ["metrics_tests"]}
+STEPPING = ["stepping_tests", "world_tests", "groups_tests", "laws_tests"]
+PROGRAMS = {"metrics": ["metrics_tests"]}
+PROGRAMS |= {room: [f"{room}_tests", *(test for test in STEPPING if test != f"{room}_tests")]
+             for room in ("material", "body", "world", "analysis", "lists", "groups", "stepping")}
+PROGRAMS["kernel"] = STEPPING
 LEFT_OUT = shutil.ignore_patterns("build*", "out", ".git", "__pycache__")
 ENOUGH = 0.9
 FAST = ["-O1", "-DNDEBUG", "-w", "-D_GLIBCXX_ASSERTIONS"]

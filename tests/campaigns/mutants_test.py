@@ -53,13 +53,13 @@ class Changes(unittest.TestCase):
         self.assertEqual(changes("a.minCoeff() + 0.0"), [(1, "minCoeff", "maxCoeff"), (1, "+", "-"), (1, "0.0", "1.0")])
 
     def test_keep_every_place(self):
-        for path in mutants.files_of(SOURCE / "lib" / "sinew" / "physics"):
+        for path in mutants.files_of(SOURCE / "lib" / "sinew" / "stepping"):
             text = path.read_text()
             self.assertEqual(len(code_of(text)), len(text), path)
             self.assertEqual(code_of(text).count("\n"), text.count("\n"), path)
 
     def test_are_one_at_a_time(self):
-        path = "lib/sinew/physics/pair_force.h"
+        path = "lib/sinew/material/pair_force.h"
         text = (SOURCE / path).read_text()
         found = mutants_of(path, text)
         self.assertGreater(len(found), 30)
@@ -99,7 +99,7 @@ class Trial(mutants.Workshop):
 
 class Copy(unittest.TestCase):
     def test_alone_is_changed_and_only_for_a_while(self):
-        file = "lib/sinew/physics/pair_force.h"
+        file = "lib/sinew/material/pair_force.h"
         text = (SOURCE / file).read_text()
         mutant = mutants_of(file, text)[0]
         with tempfile.TemporaryDirectory() as folder:

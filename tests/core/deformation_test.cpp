@@ -7,7 +7,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::deformation_test {
 

@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <algorithm>
 
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::file_test {
 

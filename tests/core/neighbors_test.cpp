@@ -4,7 +4,7 @@
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/parallel.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::neighbors_test {
 

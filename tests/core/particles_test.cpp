@@ -10,7 +10,7 @@
 #include <sinew/core/hash.h>
 #include <sinew/core/parallel.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::particles_test {
 

@@ -9,7 +9,7 @@
 #include <sinew/engine/engine_talk.h>
 #include <sinew/engine/engine_world.h>
 #include <sinew/engine/walks.h>
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::engine_files_test {
 

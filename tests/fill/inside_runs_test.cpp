@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/fill/inside/inside_runs.h>
+#include <sinew/fill/detail/inside_runs.h>
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "rig/bvh/bvh_files.h"
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::bvh_test {
 

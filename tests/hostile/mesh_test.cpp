@@ -9,10 +9,10 @@
 
 #include <sinew/core/error.h>
 #include <sinew/mesh/read_surface.h>
-#include "expect_error.h"
 #include "mesh/mesh_files.h"
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"
+#include "support/expect_error.h"
 
 namespace sinew::mesh_test {
 

@@ -12,9 +12,9 @@
 #include <sinew/rig/motion.h>
 #include <sinew/settings/table.h>
 #include "hostile/scenes.h"
-#include "scratch.h"
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
+#include "support/scratch.h"
 
 namespace sinew::scene_test {
 

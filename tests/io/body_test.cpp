@@ -2,7 +2,7 @@
 #include <sinew/io/single_files.h>
 
 #include <sinew/io/vtu.h>
-#include "scratch.h"
+#include "support/scratch.h"
 #include "synthetic_run.h"
 
 namespace sinew::body_test {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <regex>
 
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::bone_table_test {
 

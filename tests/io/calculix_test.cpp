@@ -7,8 +7,8 @@
 #include <sinew/core/file.h>
 #include <sinew/io/calculix/deck.h>
 #include <sinew/io/calculix/frd.h>
-#include "expect_error.h"
-#include "scratch.h"
+#include "support/expect_error.h"
+#include "support/scratch.h"
 
 namespace sinew::calculix_test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <random>
 
-#include "expect_error.h"
-#include "scratch.h"
+#include "support/expect_error.h"
+#include "support/scratch.h"
 
 namespace sinew::checkpoint_test {
 

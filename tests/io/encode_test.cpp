@@ -6,7 +6,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/io/vtu.h>
 #include "element_text.h"
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::encode_test {
 

@@ -5,7 +5,7 @@
 
 #include <sinew/core/file.h>
 #include <sinew/io/series.h>
-#include "scratch.h"
+#include "support/scratch.h"
 #include "synthetic_run.h"
 
 namespace sinew::full_disk_test {

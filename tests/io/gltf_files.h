@@ -12,7 +12,7 @@
 
 #include <sinew/core/base64.h>
 #include <sinew/core/triangles.h>
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::gltf_files {
 

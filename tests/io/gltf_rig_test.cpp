@@ -5,8 +5,8 @@
 #include <sinew/io/gltf/geometry.h>
 #include <sinew/rig/motion.h>
 #include <sinew/settings/read_scene.h>
-#include "expect_error.h"
 #include "io/gltf_rigs.h"
+#include "support/expect_error.h"
 
 namespace sinew::gltf_rig_test {
 

@@ -9,8 +9,8 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/particles.h>
-#include "expect_error.h"
-#include "scratch.h"
+#include "support/expect_error.h"
+#include "support/scratch.h"
 
 namespace sinew::particle_formats_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstring>
 
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::point_cache_test {
 

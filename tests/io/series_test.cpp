@@ -9,7 +9,7 @@
 #include <thread>
 
 #include <sinew/core/file.h>
-#include "scratch.h"
+#include "support/scratch.h"
 #include "synthetic_run.h"
 
 namespace sinew::series_test {

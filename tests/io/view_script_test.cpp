@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/paraview/view_script.h>
 
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::view_script_test {
 

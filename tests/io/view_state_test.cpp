@@ -8,8 +8,8 @@
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>
 #include <sinew/io/xml.h>
-#include "expect_error.h"
-#include "scratch.h"
+#include "support/expect_error.h"
+#include "support/scratch.h"
 #include "synthetic_run.h"
 
 namespace sinew::view_state_test {

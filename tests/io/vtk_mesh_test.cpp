@@ -9,8 +9,8 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/io/vtk/grids.h>
-#include "expect_error.h"
-#include "scratch.h"
+#include "support/expect_error.h"
+#include "support/scratch.h"
 
 namespace sinew::vtk_mesh_test {
 

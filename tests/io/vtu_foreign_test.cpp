@@ -19,7 +19,7 @@
 #include <cmath>
 
 #include <sinew/io/vtu.h>
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::vtu_foreign_test {
 

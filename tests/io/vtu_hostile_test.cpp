@@ -4,7 +4,7 @@
 #include <random>
 
 #include <sinew/io/vtu.h>
-#include "scratch.h"
+#include "support/scratch.h"
 #include "synthetic_run.h"
 
 namespace sinew::vtu_hostile_test {

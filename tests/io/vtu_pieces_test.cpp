@@ -3,8 +3,8 @@
 #include <sinew/core/file.h>
 #include <sinew/io/series.h>
 #include <sinew/io/vtu.h>
-#include "expect_error.h"
-#include "scratch.h"
+#include "support/expect_error.h"
+#include "support/scratch.h"
 
 namespace sinew::vtu_pieces_test {
 

@@ -2,7 +2,7 @@
 #include <sinew/io/vtu.h>
 
 #include <sinew/core/arrays.h>
-#include "scratch.h"
+#include "support/scratch.h"
 #include "synthetic_run.h"
 
 namespace sinew::vtu_test {

@@ -11,8 +11,8 @@
 
 #include <sinew/core/file.h>
 #include <sinew/engine/engine_files.h>
-#include <sinew/physics/world/world.h>
-#include "world.h"
+#include <sinew/world/world.h>
+#include "support/world.h"
 
 namespace sinew::test {
 

@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <memory>
 
-#include <sinew/physics/solid.h>
+#include <sinew/body/solid.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::beam_test {
 

@@ -8,7 +8,7 @@
 #include <complex>
 #include <functional>
 
-#include "physics/all_steppers.h"
+#include "support/all_steppers.h"
 
 namespace sinew::convergence_test {
 

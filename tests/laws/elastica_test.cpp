@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Sparse>
 
-#include <sinew/physics/solid.h>
+#include <sinew/body/solid.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::elastica_test {
 

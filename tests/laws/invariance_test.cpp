@@ -5,7 +5,7 @@
 
 #include <sinew/rig/skin.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::invariance_test {
 

@@ -8,8 +8,8 @@
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
 
+#include <sinew/body/solid.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/physics/solid.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/setup.h>
 #include "mesh/shapes.h"

@@ -6,7 +6,7 @@
 #include <sinew/core/deformation.h>
 #include <sinew/scene/rig.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::paper_box_test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::rest_test {
 

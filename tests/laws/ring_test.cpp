@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include <sinew/physics/modes/elastic_modes.h>
+#include <sinew/analysis/elastic_modes.h>
 #include <sinew/scene/setup.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::ring_test {
 

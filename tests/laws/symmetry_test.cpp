@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "physics/all_steppers.h"
+#include "support/all_steppers.h"
 
 namespace sinew::symmetry_test {
 

@@ -6,7 +6,7 @@
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::true_elasticity_test {
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "expect_error.h"
 #include "mesh/shapes.h"
+#include "support/expect_error.h"
 
 namespace sinew::clean_test {
 

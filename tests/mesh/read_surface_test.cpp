@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "expect_error.h"
 #include "mesh/mesh_files.h"
 #include "mesh/shapes.h"
+#include "support/expect_error.h"
 
 namespace sinew::read_surface_test {
 

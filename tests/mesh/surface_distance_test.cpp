@@ -8,8 +8,8 @@
 #include <thread>
 
 #include <sinew/mesh/read_surface.h>
-#include "expect_error.h"
 #include "mesh/shapes.h"
+#include "support/expect_error.h"
 
 namespace sinew::surface_distance_test {
 

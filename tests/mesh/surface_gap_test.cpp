@@ -7,8 +7,8 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/mesh/read_surface.h>
-#include "expect_error.h"
 #include "mesh/shapes.h"
+#include "support/expect_error.h"
 
 namespace sinew::surface_gap_test {
 

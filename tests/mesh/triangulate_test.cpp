@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/cleaning/triangulate.h>
+#include <sinew/mesh/detail/triangulate.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include <sinew/mesh/solids.h>
-#include "expect_error.h"
+#include "support/expect_error.h"
 
 namespace sinew::volume_meshing_test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "expect_error.h"
+#include "support/expect_error.h"
 
 namespace sinew::element_places_test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::test::files_test {
 

@@ -13,8 +13,8 @@
 #include <sinew/metrics/report/page.h>
 #include <sinew/metrics/report/report.h>
 #include <sinew/metrics/summary.h>
-#include "golden.h"
-#include "world.h"
+#include "support/golden.h"
+#include "support/world.h"
 
 namespace sinew::test::golden_test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/metrics/report/markup.h>
+#include <sinew/metrics/markup.h>
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/metrics/table.h>
-#include "expect_error.h"
-#include "world.h"
+#include "support/expect_error.h"
+#include "support/world.h"
 
 namespace sinew::test::measure_test {
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::test::playback_test {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::test::slices_test {
 

@@ -5,7 +5,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/metrics/table.h>
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::test::summary_test {
 

@@ -7,7 +7,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/scene/rig.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::binding_test {
 

@@ -4,7 +4,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/rig/skinning.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::bone_weights_test {
 

@@ -5,7 +5,7 @@
 
 #include <sinew/core/vector.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::curve_test {
 

@@ -6,8 +6,8 @@
 #include <sinew/core/triangles.h>
 #include <sinew/rig/fit.h>
 
-#include "expect_error.h"
-#include "world.h"
+#include "support/expect_error.h"
+#include "support/world.h"
 
 namespace sinew::fit_test {
 

@@ -6,7 +6,7 @@
 #include <sinew/rig/binding.h>
 #include <sinew/scene/rig.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::inside_distance_test {
 

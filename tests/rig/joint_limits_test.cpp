@@ -5,7 +5,7 @@
 #include <sinew/rig/motion_checks.h>
 #include <sinew/scene/rig.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::joint_limits_test {
 

@@ -7,7 +7,7 @@
 #include <sinew/rig/binding.h>
 #include <sinew/scene/rig.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::joint_zones_test {
 

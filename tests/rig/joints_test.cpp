@@ -5,7 +5,7 @@
 
 #include <sinew/rig/skeleton.h>
 
-#include "expect_error.h"
+#include "support/expect_error.h"
 
 namespace sinew::joints_test {
 

@@ -6,8 +6,8 @@
 #include <sinew/rig/pose.h>
 #include <sinew/scene/rig.h>
 
-#include "expect_error.h"
-#include "world.h"
+#include "support/expect_error.h"
+#include "support/world.h"
 
 namespace sinew::motion_test {
 

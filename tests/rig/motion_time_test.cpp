@@ -7,8 +7,8 @@
 #include <sinew/rig/motion_checks.h>
 #include <sinew/scene/rig.h>
 
-#include "expect_error.h"
-#include "world.h"
+#include "support/expect_error.h"
+#include "support/world.h"
 
 namespace sinew::motion_time_test {
 

@@ -5,8 +5,8 @@
 
 #include <sinew/scene/rig.h>
 
-#include "expect_error.h"
-#include "world.h"
+#include "support/expect_error.h"
+#include "support/world.h"
 
 namespace sinew::skeleton_test {
 

@@ -8,7 +8,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/scene/rig.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::skin_test {
 

@@ -6,7 +6,7 @@
 #include <sinew/core/triangles.h>
 #include <sinew/scene/rig.h>
 
-#include "world.h"
+#include "support/world.h"
 
 namespace sinew::skinning_test {
 

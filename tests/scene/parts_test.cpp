@@ -6,11 +6,11 @@
 #include <sinew/mesh/surface.h>
 #include <sinew/scene/machine.h>
 
-#include <sinew/physics/time_step.h>
+#include <sinew/analysis/time_step.h>
 
-#include "expect_error.h"
-#include "scratch.h"
-#include "world.h"
+#include "support/expect_error.h"
+#include "support/scratch.h"
+#include "support/world.h"
 
 namespace sinew::parts_test {
 

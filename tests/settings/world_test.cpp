@@ -5,9 +5,9 @@
 #include <sinew/settings/sections.h>
 #include <sinew/settings/write_scene.h>
 
-#include "expect_error.h"
 #include "settings/small_scene.h"
 #include "settings/temp_folder.h"
+#include "support/expect_error.h"
 
 namespace sinew::world_test {
 

@@ -9,8 +9,8 @@
 #include <string>
 
 #include <sinew/core/cell_grid.h>
-#include "lammps_files.h"
-#include "world.h"
+#include "support/lammps_files.h"
+#include "support/world.h"
 
 namespace sinew {
 namespace {

@@ -7,11 +7,15 @@
 //     simulation.restore(state);
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include <sinew/core/error.h>
 #include <sinew/core/vector.h>
 
 namespace sinew {
@@ -107,4 +111,35 @@ struct SimulationState {
   std::vector<double> pressed = {};
 };
 
+/// The saved state is not one of this stepper, or not valid.
+inline Error not_a_state(const std::string& why) {
+  return bad_input("the saved state does not fit this body: " + why,
+                   "begin again without --resume");
+}
+
+/// Throws bad input unless there are `particles` positions and velocities, all of them finite.
+template <class Coord, class Real>
+void check_moving(const MovingColumns<Coord, Real>& moving, std::size_t particles) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (moving.x[axis].size() != particles || moving.v[axis].size() != particles)
+      throw not_a_state("it is of " + std::to_string(moving.x[axis].size()) + " particles, not " +
+                        std::to_string(particles));
+    for (std::size_t k = 0; k < particles; ++k)
+      if (!std::isfinite(static_cast<double>(moving.x[axis][k])) ||
+          !std::isfinite(moving.v[axis][k]))
+        throw not_a_state("particle " + std::to_string(k) + " has a value that is not finite");
+  }
+}
+
+/// Throws bad input unless there are so many branches of bonds, all finite.
+inline void check_branches(const SimulationState& state, std::size_t branches) {
+  const auto finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double one) { return std::isfinite(one); });
+  };
+  if (state.branch_clocks.size() != branches)
+    throw not_a_state("its bonds have " + std::to_string(state.branch_clocks.size()) +
+                      " branches, not " + std::to_string(branches));
+  if (!finite(state.branch_clocks) || !finite(state.branch_stretches))
+    throw not_a_state("a branch of a bond has no length");
+}
 }  // namespace sinew

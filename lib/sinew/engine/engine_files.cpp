@@ -5,13 +5,13 @@
 #include <cstring>
 #include <fstream>
 
+#include <sinew/body/solid.h>
+#include <sinew/body/volume_weights.h>
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/engine/engine_world.h>
 #include <sinew/engine/walks.h>
-#include <sinew/physics/laws.h>
-#include <sinew/physics/solid.h>
-#include <sinew/physics/volume_weights.h>
+#include <sinew/material/laws.h>
 
 namespace sinew {
 namespace {

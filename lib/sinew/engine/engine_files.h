@@ -22,13 +22,12 @@
 #include <string>
 #include <vector>
 
+#include <sinew/body/body.h>
+#include <sinew/body/step_plan.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/engine/particle_rows.h>
-#include <sinew/physics/forces.h>
-#include <sinew/physics/step_plan.h>
-#include <sinew/physics/stepper.h>
-#include <sinew/physics/world/world.h>
 #include <sinew/rig/motion.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

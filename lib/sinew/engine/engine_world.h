@@ -14,9 +14,9 @@
 #include <cstdint>
 #include <filesystem>
 
-#include <sinew/physics/step_plan.h>
-#include <sinew/physics/world/world.h>
+#include <sinew/body/step_plan.h>
 #include <sinew/rig/motion.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

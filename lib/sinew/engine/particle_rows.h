@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include <sinew/core/vector.h>
-#include <sinew/physics/pair_force.h>
+#include <sinew/material/pair_force.h>
 #include <sinew/rig/binding.h>
 
 namespace sinew {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <sinew/engine/archive.h>
-#include <sinew/physics/world/world.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

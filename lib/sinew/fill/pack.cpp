@@ -8,12 +8,12 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/fill/detail/irregular.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/fill_warnings.h>
 #include <sinew/fill/filled_sites.h>
 #include <sinew/fill/isotropy.h>
 #include <sinew/fill/owners.h>
-#include <sinew/fill/packings/irregular.h>
 #include <sinew/fill/shares.h>
 #include <sinew/fill/verify.h>
 

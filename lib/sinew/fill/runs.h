@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-#include <sinew/fill/inside/row_crossings.h>
+#include <sinew/fill/detail/row_crossings.h>
 #include <sinew/fill/lattice.h>
 
 namespace sinew {

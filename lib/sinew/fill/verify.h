@@ -7,8 +7,8 @@
 #include <memory>
 
 #include <sinew/core/triangles.h>
+#include <sinew/fill/detail/inside_runs.h>
 #include <sinew/fill/fill_report.h>
-#include <sinew/fill/inside/inside_runs.h>
 
 namespace sinew {
 

@@ -5,7 +5,7 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/io/vtk/vtk_xml.h>
+#include <sinew/io/vtk_xml.h>
 #include <sinew/io/vtu.h>
 #include <sinew/io/vtu_array.h>
 

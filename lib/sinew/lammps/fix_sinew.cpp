@@ -4,7 +4,7 @@
 #include <mpi.h>
 #include <algorithm>
 
-#include <sinew/physics/bone_force.h>
+#include <sinew/body/bone_force.h>
 
 namespace sinew {
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 
+#include <sinew/body/ledger.h>
 #include <sinew/engine/engine_talk.h>
 #include <sinew/engine/engine_world.h>
 #include <sinew/lammps/lammps_headers.h>

@@ -10,7 +10,7 @@
 #include <sinew/io/particle_frame.h>
 #include <sinew/io/vtu.h>
 #include <sinew/lammps/lammps_run.h>
-#include <sinew/physics/laws.h>
+#include <sinew/material/laws.h>
 
 namespace sinew {
 namespace {

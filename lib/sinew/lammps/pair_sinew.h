@@ -6,7 +6,7 @@
 
 #include <sinew/lammps/lammps_headers.h>
 #include <sinew/lammps/local_body.h>
-#include <sinew/physics/laws.h>
+#include <sinew/material/laws.h>
 
 namespace sinew {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <sinew/physics/solid.h>
+#include <sinew/body/solid.h>
 
 namespace sinew {
 namespace {

@@ -8,8 +8,8 @@
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/border.h>
-#include <sinew/mesh/cleaning/orient.h>
-#include <sinew/mesh/cleaning/triangulate.h>
+#include <sinew/mesh/detail/orient.h>
+#include <sinew/mesh/detail/triangulate.h>
 #include <sinew/mesh/self_intersections.h>
 #include <sinew/mesh/surface.h>
 

@@ -6,7 +6,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/metrics/frame_metrics.h>
-#include <sinew/metrics/report/markup.h>
+#include <sinew/metrics/markup.h>
 #include <sinew/metrics/table.h>
 
 namespace sinew {

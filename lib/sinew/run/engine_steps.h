@@ -11,8 +11,8 @@
 
 #include <sinew/engine/engine_files.h>
 #include <sinew/engine/engine_talk.h>
-#include <sinew/physics/simulation.h>
 #include <sinew/settings/settings.h>
+#include <sinew/stepping/simulation.h>
 
 namespace sinew {
 

@@ -11,7 +11,6 @@
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
-#include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/run/bond_frames.h>
 #include <sinew/run/run_files.h>
 #include <sinew/scene/frame_content.h>

@@ -27,14 +27,14 @@
 #include <sinew/io/point_cache.h>
 #include <sinew/io/series.h>
 #include <sinew/metrics/rest_body.h>
-#include <sinew/physics/simulation.h>
-#include <sinew/physics/world/world.h>
 #include <sinew/rig/skin.h>
 #include <sinew/rig/skinning.h>
 #include <sinew/run/probe_table.h>
 #include <sinew/run/support_table.h>
 #include <sinew/scene/setup.h>
 #include <sinew/settings/settings.h>
+#include <sinew/stepping/simulation.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

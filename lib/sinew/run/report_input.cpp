@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include <sinew/body/bone_force.h>
 #include <sinew/core/file.h>
 #include <sinew/core/json.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/physics/bone_force.h>
-#include <sinew/physics/laws.h>
+#include <sinew/material/laws.h>
 #include <sinew/rig/binding.h>
 #include <sinew/run/machine_columns.h>
 #include <sinew/run/run_files.h>

@@ -12,7 +12,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/physics/laws.h>
+#include <sinew/material/laws.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/rig.h>

@@ -11,19 +11,19 @@
 #include <string>
 #include <vector>
 
+#include <sinew/body/bond_factors.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>
+#include <sinew/material/material.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/rest_body.h>
-#include <sinew/physics/bond_factors.h>
-#include <sinew/physics/material.h>
-#include <sinew/physics/world/world.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/machine.h>
 #include <sinew/settings/settings.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

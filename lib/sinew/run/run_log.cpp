@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/run/run_log.h>
 
+#include <sinew/body/grouping.h>
 #include <sinew/core/arrays.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/physics/hierarchy/grouping.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/warnings.h>
 #include <sinew/settings/table.h>

@@ -12,7 +12,7 @@
 
 #include <sinew/io/frame_table.h>
 #include <sinew/io/frames.h>
-#include <sinew/physics/world/world.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

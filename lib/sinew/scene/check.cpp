@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <system_error>
 
+#include <sinew/body/solid.h>
 #include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
-#include <sinew/physics/solid.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/steps.h>
 

@@ -13,8 +13,8 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/winding.h>
-#include <sinew/physics/world/world.h>
 #include <sinew/rig/motion.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 namespace {

@@ -10,11 +10,11 @@
 #include <sinew/core/text.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/mesh/volume_meshing.h>
-#include <sinew/physics/world/region.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/element_parts.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
+#include <sinew/world/region.h>
 
 namespace sinew {
 namespace {

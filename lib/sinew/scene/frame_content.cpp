@@ -8,8 +8,8 @@
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
-#include <sinew/physics/laws.h>
-#include <sinew/physics/world/world.h>
+#include <sinew/material/laws.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/body/body.h>
 #include <sinew/core/vector.h>
-#include <sinew/physics/forces.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {

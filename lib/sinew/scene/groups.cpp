@@ -8,8 +8,8 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
-#include <sinew/physics/hierarchy/kept_free.h>
-#include <sinew/physics/hierarchy/static_groups.h>
+#include <sinew/groups/kept_free.h>
+#include <sinew/groups/static_groups.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/rig.h>
 

@@ -8,8 +8,9 @@
 #include <memory>
 #include <optional>
 
-#include <sinew/physics/forces.h>
-#include <sinew/physics/hierarchy/grouping.h>
+#include <sinew/body/body.h>
+#include <sinew/body/grouping.h>
+#include <sinew/groups/make_grouping.h>
 #include <sinew/rig/motion.h>
 #include <sinew/settings/settings.h>
 

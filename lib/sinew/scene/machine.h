@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <sinew/physics/world/world.h>
 #include <sinew/scene/parts.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

@@ -10,9 +10,9 @@
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/surface.h>
 #include <sinew/mesh/winding.h>
-#include <sinew/physics/world/following_points.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
+#include <sinew/world/following_points.h>
 
 namespace sinew {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <sinew/body/body.h>
 #include <sinew/core/triangles.h>
-#include <sinew/physics/forces.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {

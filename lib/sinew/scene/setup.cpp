@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sinew/analysis/elastic_modes.h>
+#include <sinew/analysis/held_motion.h>
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/read_surface.h>
-#include <sinew/physics/held_motion.h>
-#include <sinew/physics/modes/elastic_modes.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>

@@ -7,17 +7,17 @@
 
 #include <optional>
 
+#include <sinew/analysis/time_step.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/surface_look.h>
 #include <sinew/core/triangles.h>
-#include <sinew/physics/simulation.h>
-#include <sinew/physics/time_step.h>
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/machine.h>
 #include <sinew/scene/scene_files.h>
 #include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
+#include <sinew/stepping/simulation.h>
 
 namespace sinew {
 

@@ -6,10 +6,10 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/physics/world/world.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/world.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

@@ -10,12 +10,11 @@
 #include <string>
 #include <vector>
 
-#include <sinew/physics/kernel/kernel.h>
-#include <sinew/physics/relaxation.h>
-#include <sinew/physics/step_plan.h>
-#include <sinew/physics/stepper.h>
-#include <sinew/physics/time_step.h>
+#include <sinew/analysis/time_step.h>
+#include <sinew/body/step_plan.h>
+#include <sinew/kernel/kernel.h>
 #include <sinew/settings/settings.h>
+#include <sinew/stepping/relaxation.h>
 
 namespace sinew {
 

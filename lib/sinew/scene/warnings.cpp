@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
+#include <sinew/body/grouping.h>
+#include <sinew/body/solid.h>
 #include <sinew/core/text.h>
-#include <sinew/physics/hierarchy/grouping.h>
-#include <sinew/physics/solid.h>
-#include <sinew/physics/world/world.h>
 #include <sinew/rig/motion_checks.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 

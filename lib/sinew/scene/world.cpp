@@ -6,11 +6,11 @@
 #include <utility>
 
 #include <sinew/mesh/surface_distance.h>
-#include <sinew/physics/world/shapes.h>
-#include <sinew/physics/world/world.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/rig.h>
+#include <sinew/world/shapes.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 namespace {

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include <sinew/analysis/time_step.h>
+#include <sinew/body/body.h>
 #include <sinew/core/triangles.h>
-#include <sinew/physics/forces.h>
-#include <sinew/physics/time_step.h>
-#include <sinew/physics/world/obstacle.h>
 #include <sinew/scene/machine.h>
 #include <sinew/scene/scene_files.h>
 #include <sinew/settings/settings.h>
+#include <sinew/world/obstacle.h>
 
 namespace sinew {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include <sinew/core/system.h>
+#include <sinew/metrics/markup.h>
 #include <sinew/metrics/report/charts.h>
-#include <sinew/metrics/report/markup.h>
 #include <sinew/metrics/report/page.h>
 #include <sinew/metrics/table.h>
 

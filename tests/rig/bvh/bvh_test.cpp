@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "rig/bvh/bvh_files.h"
-#include "scratch.h"
+#include "support/scratch.h"
 
 namespace sinew::bvh_test {
 

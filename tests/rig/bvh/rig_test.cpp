@@ -6,8 +6,8 @@
 
 #include <sinew/rig/bvh/bvh.h>
 
-#include "expect_error.h"
 #include "rig/bvh/bvh_files.h"
+#include "support/expect_error.h"
 
 namespace sinew::rig_test {
 

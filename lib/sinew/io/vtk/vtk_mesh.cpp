@@ -14,7 +14,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/io/vtk/grids.h>
-#include <sinew/io/vtk/vtk_xml.h>
+#include <sinew/io/vtk_xml.h>
 
 namespace sinew {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
+#include <sinew/metrics/markup.h>
 #include <sinew/metrics/report/charts.h>
-#include <sinew/metrics/report/markup.h>
 #include <sinew/metrics/report/page.h>
 #include <sinew/metrics/table.h>
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include <sinew/metrics/report/markup.h>
+#include <sinew/metrics/markup.h>
 #include <sinew/metrics/summary.h>
 
 namespace sinew {

@@ -11,7 +11,7 @@ namespace {
 
 // In base64 these are below 8 MB: with the libraries and the charts, a page of 10.
 constexpr std::size_t particle_bytes = 3'800'000, surface_bytes = 1'200'000;
-constexpr std::size_t worst_frames = 8;          // in addition to the planned ones
+constexpr std::size_t extra_frames = 8;          // in addition to the planned ones
 constexpr std::size_t most_frames = 120;         // four seconds at 30 per second
 constexpr std::size_t fewest_particles = 6'000;  // as few as still resemble a body
 
@@ -46,11 +46,11 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
 std::size_t frames_paid(std::size_t run_frames, std::size_t bytes, std::size_t frame_bytes) {
   const std::size_t paid = std::min(most_frames, bytes / frame_bytes);
   if (paid >= run_frames) return run_frames;
-  return paid > worst_frames ? paid - worst_frames : 1;
+  return paid > extra_frames ? paid - extra_frames : 1;
 }
 
 std::size_t most_snapshots(const Playback& playback) {
-  return std::min(playback.run_frames, playback.wanted.size() + worst_frames);
+  return std::min(playback.run_frames, playback.wanted.size() + extra_frames);
 }
 
 void plan_particles(Playback& playback, const RestBody& rest, std::size_t bytes) {

@@ -2,8 +2,8 @@
 #include <sinew/metrics/report/report.h>
 
 #include <sinew/core/error.h>
+#include <sinew/metrics/markup.h>
 #include <sinew/metrics/report/charts.h>
-#include <sinew/metrics/report/markup.h>
 #include <sinew/metrics/report/page.h>
 
 namespace sinew {

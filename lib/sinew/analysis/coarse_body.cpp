@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/analysis/elastic_modes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <sinew/core/fcc.h>
+#include <sinew/core/particles.h>
+
+namespace sinew {
+namespace {
+
+constexpr double least_share = 0.4;         // of a site that is kept
+constexpr std::size_t least_neighbors = 6;  // half of those inside
+
+using Shares = std::map<FccSite, double>;
+
+/// The same in particles `larger` times as large. Stresses keep their constants, springs grow with
+/// the length.
+Material enlarged(Material material, double larger) {
+  for (double* length : {&material.pair.r, &material.pair.a, &material.pair.b}) *length *= larger;
+  for (double* spring : {&material.bond.stiffness, &material.bond.second}) *spring *= larger;
+  material.mass *= larger * larger * larger;
+  material.damping *= larger * larger;
+  return material;
+}
+
+std::vector<FccSite> nearest_steps() {
+  std::vector<FccSite> steps = fcc_steps(2);
+  std::erase_if(steps, [](const FccSite& step) {
+    return step[0] * step[0] + step[1] * step[1] + step[2] * step[2] != 2;
+  });
+  return steps;
+}
+
+/// Calls visit(iterator) for the nearest neighbors of a site that are there.
+template <class Visit>
+void for_each_around(Shares& shares, const FccSite& site, const Visit& visit) {
+  static const std::vector<FccSite> steps = nearest_steps();
+  for (const FccSite& step : steps) {
+    const auto found = shares.find({site[0] + step[0], site[1] + step[1], site[2] + step[2]});
+    if (found != shares.end()) visit(found);
+  }
+}
+
+/// Sites with little of the body, or loosely held, leave it to the neighbor that has most.
+Shares kept(Shares shares) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (auto at = shares.begin(); at != shares.end();) {
+      std::size_t bonds = 0;
+      auto most = shares.end();
+      for_each_around(shares, at->first, [&](Shares::iterator other) {
+        ++bonds;
+        if (most == shares.end() || other->second > most->second) most = other;
+      });
+      if ((at->second >= least_share && bonds >= least_neighbors) || most == shares.end()) {
+        ++at;
+        continue;
+      }
+      most->second += at->second;
+      at = shares.erase(at);
+      changed = true;
+    }
+  }
+  for (auto& [site, share] : shares) {
+    std::size_t bonds = 0;
+    for_each_around(shares, site, [&](Shares::iterator) { ++bonds; });
+    if (bonds == nearest_steps().size()) share = 1;
+  }
+  return shares;
+}
+
+/// The particle nearest to the middle: its site is one of the coarse packing too, which therefore
+/// meets the body's faces as its own does.
+Vec3 middle_of(const Points& rest) {
+  Vec3 center = Vec3::Zero();
+  for (const Vec3& place : rest) center += place / static_cast<double>(rest.size());
+  return *std::min_element(rest.begin(), rest.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - center).squaredNorm() < (b - center).squaredNorm();
+  });
+}
+
+}  // namespace
+
+Body coarse_body(const Body& body, int times) {
+  const double larger = times;
+  const double unit = std::numbers::sqrt2 * larger * body.material.pair.r;
+  const Vec3 center = middle_of(body.rest);
+  // A particle is spread over its own volume, lest cells hold now two, now four.
+  Shares all, stiffness, volume, density;
+  const std::vector<FccSite> parts = nearest_steps();
+  for (std::size_t i = 0; i < body.rest.size(); ++i) {
+    const Vec3 at = body.lattice.transpose() * (body.rest[i] - center) / unit;
+    const double share = (body.share.empty() ? 1 : body.share[i]) / (larger * larger * larger) /
+                         static_cast<double>(parts.size());
+    for (const FccSite& part : parts) {
+      const FccSite site = nearest_fcc_site(at + 0.5 / larger * Vec3(part[0], part[1], part[2]));
+      all[site] += share;
+      if (!body.stiffness.empty()) stiffness[site] += share * body.stiffness[i];
+      if (!body.density.empty()) density[site] += share * body.density[i];
+      if (!body.local.volume.empty()) volume[site] += share * body.local.volume[i];
+    }
+  }
+  for (Shares* sums : {&stiffness, &volume, &density})
+    for (auto& [site, sum] : *sums) sum /= all[site];
+  Body coarse;
+  coarse.lattice = body.lattice;
+  coarse.material = enlarged(body.material, larger);
+  for (const auto& [site, share] : kept(std::move(all))) {
+    coarse.rest.emplace_back(center + unit * (body.lattice * Vec3(site[0], site[1], site[2])));
+    coarse.share.push_back(share);
+    if (!stiffness.empty()) coarse.stiffness.push_back(stiffness[site]);
+    if (!density.empty()) coarse.density.push_back(density[site]);
+    if (!volume.empty()) coarse.local.volume.push_back(volume[site]);
+  }
+  coarse.material.mass = body.material.mass * static_cast<double>(body.rest.size()) /
+                         static_cast<double>(coarse.rest.size());
+  coarse.factors = bond_factors(coarse.rest, coarse.material, coarse.share, coarse.stiffness,
+                                coarse.local.volume);
+  return coarse;
+}
+
+}  // namespace sinew

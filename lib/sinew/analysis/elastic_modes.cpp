@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/analysis/elastic_modes.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include <sinew/analysis/free_body.h>
+#include <sinew/analysis/nearly_solved.h>
+#include <sinew/body/bond_factors.h>
+#include <sinew/core/particles.h>
+#include <sinew/core/union_find.h>
+
+namespace sinew {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr Eigen::Index kept_modes = 6, answers = 4;  // see ModeFinder::widen()
+constexpr double most_particles = 8'000;             // still larger ones are coarsened to that many
+constexpr std::size_t least_bonds = 3;               // fewer do not hold a particle
+constexpr int most_rounds = 60, order = 3;           // of the polynomials to begin with
+constexpr double converged = 1e-4;                   // of eigenvalues
+constexpr double floppy = 1e-3;  // share of a smooth mode's w^2 below which one is no mode
+
+/// Of the particles' places, those of the largest part that hangs together.
+std::vector<std::size_t> largest_part(const Body& body) {
+  const NeighborLists near = neighbors_within(body.rest, rest_neighbor_range(body.material.pair.r));
+  UnionFind sets(body.rest.size());
+  for (std::size_t i = 0; i < body.rest.size(); ++i)
+    for (const std::uint32_t j : near.of(i))
+      if (near.of(i).size() >= least_bonds && near.of(j).size() >= least_bonds)
+        sets.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+  std::vector<std::vector<std::size_t>> parts(body.rest.size());
+  for (std::size_t i = 0; i < body.rest.size(); ++i)
+    parts[static_cast<std::size_t>(sets.first_of(static_cast<std::int32_t>(i)))].push_back(i);
+  return *std::max_element(parts.begin(), parts.end(),
+                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
+}
+
+Body part_of(const Body& body, const std::vector<std::size_t>& places) {
+  Body part;
+  part.material = body.material;
+  part.lattice = body.lattice;
+  for (const std::size_t i : places) {
+    part.rest.push_back(body.rest[i]);
+    if (!body.share.empty()) part.share.push_back(body.share[i]);
+    if (!body.stiffness.empty()) part.stiffness.push_back(body.stiffness[i]);
+    if (!body.density.empty()) part.density.push_back(body.density[i]);
+    if (!body.local.volume.empty()) part.local.volume.push_back(body.local.volume[i]);
+  }
+  part.factors =
+      bond_factors(part.rest, part.material, part.share, part.stiffness, part.local.volume);
+  return part;
+}
+
+/// Displacements by polynomials of the rest positions.
+Matrix polynomials(const Points& rest) {
+  Box box;
+  for (const Vec3& place : rest) box.extend(place);
+  const double half = std::max(box.sizes().maxCoeff() / 2, 1e-300);
+  std::vector<std::array<int, 3>> powers;
+  for (int i = 0; i <= order; ++i)
+    for (int j = 0; i + j <= order; ++j)
+      for (int k = 0; i + j + k <= order; ++k) powers.push_back({i, j, k});
+  Matrix all = Matrix::Zero(3 * static_cast<Eigen::Index>(rest.size()),
+                            3 * static_cast<Eigen::Index>(powers.size()));
+  for (std::size_t n = 0; n < rest.size(); ++n) {
+    const Vec3 x = (rest[n] - box.center()) / half;
+    for (std::size_t p = 0; p < powers.size(); ++p) {
+      double value = 1;
+      for (int axis = 0; axis < 3; ++axis) value *= std::pow(x[axis], powers[p][axis]);
+      for (int axis = 0; axis < 3; ++axis)
+        all(3 * static_cast<Eigen::Index>(n) + axis, 3 * static_cast<Eigen::Index>(p) + axis) =
+            value;
+    }
+  }
+  return all;
+}
+
+Matrix rigid_motions(const Points& rest) {
+  Vec3 center = Vec3::Zero();
+  for (const Vec3& place : rest) center += place / static_cast<double>(rest.size());
+  Matrix all(3 * static_cast<Eigen::Index>(rest.size()), 6);
+  for (std::size_t n = 0; n < rest.size(); ++n)
+    for (int axis = 0; axis < 3; ++axis) {
+      all.block<3, 1>(3 * static_cast<Eigen::Index>(n), axis) = Vec3::Unit(axis);
+      all.block<3, 1>(3 * static_cast<Eigen::Index>(n), 3 + axis) =
+          Vec3::Unit(axis).cross(rest[n] - center);
+    }
+  return all;
+}
+
+/// The lowest modes by a block Davidson method: Ritz vectors among them and their residuals, which
+/// the springs alone precondition.
+class ModeFinder {
+ public:
+  ModeFinder(const Body& body, const Vector& mass)
+      : body_(body, mass), rigid_(orthonormal(rigid_motions(body.rest))) {}
+
+  ElasticModes find() {
+    Matrix basis = orthonormal(without_rigid(polynomials(body_.body().rest)));
+    if (basis.cols() == 0) return {};
+    ritz(basis);
+    const double smooth = squared_[0];
+    const NearlySolved solver(body_, 0.1 * smooth);
+    if (!solver.sound()) return result();
+    for (int round = 0; round < most_rounds; ++round) {
+      const Vector before = squared_;
+      const Matrix residual = stiffness_ - body_.with_mass(modes_) * squared_.asDiagonal();
+      const Matrix corrections = without_rigid(solver.solve(residual));
+      Matrix wider(modes_.rows(), modes_.cols() + corrections.cols());
+      wider << modes_, corrections;
+      ritz(orthonormal(wider));
+      const Eigen::Index same = std::min(before.size(), squared_.size());
+      const Eigen::Index judged = std::min<Eigen::Index>(same, 2);
+      if ((squared_.head(judged) - before.head(judged)).cwiseAbs().maxCoeff() <
+          converged * std::abs(squared_[judged - 1]))
+        break;
+    }
+    forget_floppy(smooth);
+    widen(solver);
+    return result();
+  }
+
+ private:
+  /// With respect to the masses; what depends on others is left out.
+  Matrix orthonormal(const Matrix& from) const {
+    const Matrix even = of_norm_1(from);
+    const Eigen::SelfAdjointEigenSolver<Matrix> gram(even.transpose() * body_.with_mass(even));
+    Eigen::Index dependent = 0;
+    while (dependent < gram.eigenvalues().size() && gram.eigenvalues()[dependent] < 1e-10)
+      ++dependent;
+    const Eigen::Index left = gram.eigenvalues().size() - dependent;
+    return even * gram.eigenvectors().rightCols(left) *
+           gram.eigenvalues().tail(left).cwiseSqrt().cwiseInverse().asDiagonal();
+  }
+
+  Vector norms(const Matrix& of) const {
+    return of.cwiseProduct(body_.with_mass(of)).colwise().sum().cwiseMax(1e-300).cwiseSqrt();
+  }
+
+  Matrix of_norm_1(const Matrix& from) const {
+    return from * norms(from).cwiseInverse().asDiagonal();
+  }
+
+  /// Without the columns that are nothing else.
+  Matrix without_rigid(const Matrix& from) const {
+    Matrix left = of_norm_1(from);
+    for (int twice = 0; twice < 2; ++twice)
+      left -= rigid_ * (rigid_.transpose() * body_.with_mass(left));
+    const Vector norm = norms(left);
+    Eigen::Index kept = 0;
+    for (Eigen::Index n = 0; n < left.cols(); ++n)
+      if (norm[n] > 1e-6) left.col(kept++) = left.col(n).eval();
+    return left.leftCols(kept);
+  }
+
+  /// Damping bends the lowest mode out of the span of a few elastic ones. Adds how: the static
+  /// answers to its damping, to the damping of that, and so on.
+  void widen(const NearlySolved& solver) {
+    Matrix wider = modes_, answer = modes_.col(0);
+    for (Eigen::Index n = 0; n < answers; ++n) {
+      answer = without_rigid(solver.solve_well(body_.damping(answer)));
+      if (answer.cols() == 0) break;
+      wider.conservativeResize(Eigen::NoChange, wider.cols() + 1);
+      wider.rightCols(1) = answer;
+    }
+    ritz(orthonormal(wider), wider.cols());
+  }
+
+  /// The lowest modes within the span of an orthonormal basis.
+  void ritz(const Matrix& basis, Eigen::Index most = kept_modes) {
+    const Matrix forces = body_.stiffness(basis);
+    Matrix reduced = basis.transpose() * forces;
+    reduced = (reduced + reduced.transpose()).eval() / 2;
+    const Eigen::SelfAdjointEigenSolver<Matrix> of(reduced);
+    const Eigen::Index count = std::min(most, basis.cols());
+    squared_ = of.eigenvalues().head(count);
+    modes_ = basis * of.eigenvectors().leftCols(count);
+    stiffness_ = forces * of.eigenvectors().leftCols(count);
+  }
+
+  void forget_floppy(double smooth) {
+    Eigen::Index first = 0;
+    while (first + 1 < squared_.size() && squared_[first] < floppy * smooth) ++first;
+    const Eigen::Index count = squared_.size() - first;
+    squared_ = squared_.tail(count).eval();
+    modes_ = modes_.rightCols(count).eval();
+  }
+
+  ElasticModes result() { return {squared_, modes_.transpose() * body_.damping(modes_)}; }
+
+  FreeBody body_;
+  Matrix rigid_;
+  Matrix modes_, stiffness_;  ///< u and K u
+  Vector squared_;
+};
+
+/// Of a body small enough; `mass` in proportion to the shares, or the same for all.
+ElasticModes modes_of(const Body& whole, bool by_share) {
+  const Body body = part_of(whole, largest_part(whole));
+  const auto n = static_cast<Eigen::Index>(body.rest.size());
+  if (n < 2) return {};
+  Vector mass(3 * n);
+  double shares = 0;
+  for (const double share : body.share) shares += share;
+  for (Eigen::Index i = 0; i < n; ++i)
+    mass.segment<3>(3 * i).setConstant(
+        mass_of(body, static_cast<std::size_t>(i), body.material.mass) *
+        (by_share ? body.share[static_cast<std::size_t>(i)] * static_cast<double>(n) / shares : 1));
+  return ModeFinder(body, mass).find();
+}
+
+/// The modes of a packing `times` as coarse, with rates as of the body.
+ElasticModes coarse_modes(const Body& body, int times) {
+  const Body coarse = coarse_body(body, times);
+  ElasticModes modes = modes_of(coarse, true);
+  const double finer = body.material.pair.r / coarse.material.pair.r;
+  modes.rates *= finer * finer * static_cast<double>(body.rest.size()) /
+                 static_cast<double>(coarse.rest.size());
+  return modes;
+}
+
+}  // namespace
+
+double ElasticModes::frequency() const { return empty() ? 0 : std::sqrt(squared[0]); }
+
+double ElasticModes::damping_ratio(double damping) const {
+  if (empty() || damping <= 0) return 0;
+  const Eigen::Index n = squared.size();
+  Matrix first_order = Matrix::Zero(2 * n, 2 * n);
+  first_order.topRightCorner(n, n).setIdentity();
+  first_order.bottomLeftCorner(n, n) = -Matrix(squared.asDiagonal());
+  std::complex<double> at(0, frequency());
+  // Followed in steps from where it is damped little.
+  const double begin = std::min(damping, 0.02 * frequency() / std::max(rates(0, 0), 1e-300));
+  const int steps = 1 + static_cast<int>(std::ceil(std::log(damping / begin) / std::log(1.15)));
+  for (int step = 0; step < steps; ++step) {
+    const double now =
+        steps == 1 ? damping : begin * std::pow(damping / begin, step / (steps - 1.0));
+    first_order.bottomRightCorner(n, n) = -now * rates;
+    const Eigen::VectorXcd values = first_order.eigenvalues();
+    std::complex<double> nearest = values[0];
+    for (const std::complex<double>& value : values)
+      if (value.imag() >= 0 && std::abs(value - at) < std::abs(nearest - at)) nearest = value;
+    at = nearest;
+  }
+  return -at.real() / std::abs(at);
+}
+
+double ElasticModes::damping_for(double ratio) const {
+  constexpr double most_followed = 0.9;  // beyond, in proportion
+  if (empty() || !(ratio > 0) || !(rates(0, 0) > 0)) return 0;
+  const double wanted = std::min(ratio, most_followed);
+  double low = 0, high = 2 * wanted * frequency() / rates(0, 0);
+  for (int n = 0; n < 20 && damping_ratio(high) < wanted; ++n) low = high, high *= 1.5;
+  for (int n = 0; n < 40; ++n) {
+    const double middle = (low + high) / 2;
+    (damping_ratio(middle) < wanted ? low : high) = middle;
+  }
+  return high * ratio / wanted;
+}
+
+ElasticModes elastic_modes(const Body& body) {
+  int times = 1;
+  while (static_cast<double>(body.rest.size()) / std::pow(times, 3) > most_particles) ++times;
+  return times == 1 ? modes_of(body, false) : coarse_modes(body, times);
+}
+
+}  // namespace sinew

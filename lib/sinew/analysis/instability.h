@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Why a particle moved too far in a step, in words, and what helps.
+//
+//     throw Error(Exit::unstable, what + cause_of(body, pose, particles, forces, stepping,
+//     failed));
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <sinew/body/body.h>
+#include <sinew/body/forces.h>
+#include <sinew/body/step_plan.h>
+
+namespace sinew {
+
+/// The moment before a step that failed.
+struct FailedStep {
+  const Body& body;
+  const Pose& pose;
+  double time;                 ///< s
+  const Particles& particles;  ///< before the step
+  const Forces& forces;        ///< there
+  const Stepping& stepping;
+};
+
+/// "cause; cure" of what one of the particles (by place) did: gravity, a bone that is too fast or
+/// has left it, an obstacle, fields or muscles, else a step that is too long. The cure names a step
+/// where a shorter one helps.
+std::string cause_and_cure(const FailedStep& failed, std::size_t particle);
+
+}  // namespace sinew

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A body, its material and its binding: all that is constant during a run.
+//
+//     const Body body = make_body(settings, files, skeleton, particles);
+//     const double mass = mass_of(body, id, particles.mass);
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <sinew/body/bond_factors.h>
+#include <sinew/body/bone_force.h>
+#include <sinew/core/particles.h>
+#include <sinew/material/local_strength.h>
+#include <sinew/material/material.h>
+#include <sinew/rig/binding.h>
+
+namespace sinew {
+
+struct World;
+struct Grouping;
+
+/// A body, its material and its binding: all that is constant during a run.
+struct Body {
+  Points rest;  ///< positions at rest by particle id, m
+  Skeleton skeleton;
+  Binding binding;  ///< by particle id
+  Material material;
+  std::vector<BoneSprings> springs;  ///< per bone
+  Mat3 lattice = Mat3::Identity();   ///< columns: the packing's axes
+  /// Volume of the body around each particle, by id, over that of one inside; empty: 1 each.
+  std::vector<double> share = {};
+  std::vector<double> stiffness = {};  ///< of the material there over `material`'s; empty: 1 each
+  std::vector<double> density = {};    ///< the same of the density
+  /// Of each particle, its place in the scene's list of materials, from 1, or 0; empty: 0 each.
+  std::vector<std::int32_t> material_number = {};
+  LocalStrength local = {};  ///< of the materials of its parts
+  BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
+  std::shared_ptr<const World> world = {};        ///< none: nothing surrounds it
+  std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
+};
+
+/// Of one of its particles, by id, kg; `common`: of one with the material's density.
+inline double mass_of(const Body& body, std::size_t id, double common) {
+  return body.density.empty() ? common : common * body.density[id];
+}
+/// Of all of them.
+double total_mass(const Body& body, double common);
+/// The material with the mass of the lightest particle.
+Material lightest(const Body& body);
+
+/// Whether any of its particles keeps its volume.
+inline bool keeps_volume(const Body& body) {
+  return largest_of(body.local.volume, body.material.volume_stiffness) > 0;
+}
+
+}  // namespace sinew

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stiffness of the bonds near a surface. Particles there have fewer than 18 bonds, so a body would
+// be softer than its material, the more so the thinner it is. Each of them asks for factors on its
+// bonds, as near to 1 as may be (least squares), with which they are as stiff in every direction as
+// all 18 are, times the particle's share of the body: the sum of k l^2 n n n n over its bonds is
+// that of the isotropic packing. A bond has the mean of what its two particles ask for.
+//
+//     body.factors = bond_factors(body.rest, body.material, body.share);
+//     const double factor = body.factors.of(id).at(neighbor);
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/material/material.h>
+
+namespace sinew {
+
+/// Neighbors at rest within this are bonded where second neighbors are.
+inline constexpr double second_neighbor_range = 3.1;  // in radii: the third are at 3.46
+
+/// Of surfaces in any direction of the packing, what BondFactors::stiffest comes to.
+inline constexpr double stiffest_of_rough_surfaces = 7.2;
+
+/// By particles, only of those with other factors than 1.
+struct BondFactors {
+  std::vector<std::uint32_t> particle;  ///< ids, ascending
+  std::vector<std::uint32_t> first;     ///< of each, its first bond
+  std::vector<std::uint32_t> neighbor;  ///< by bond, an id
+  std::vector<double> factor;           ///< by bond
+  /// By id, how stiffly each keeps its volume (volume_weights.h); empty: volume_weight() of its
+  /// neighbors, where volumes are kept.
+  std::vector<double> volume_weight;
+  /// No sum of the bonds' n n^T around a particle, times their factors and stiffness over k, has a
+  /// larger eigenvalue; 4 and a half inside. Where volumes are kept, nor has any mode more than
+  /// twice this as w^2, in k / m.
+  double stiffest = 4.5;
+
+  /// The bonds of one particle.
+  struct Row {
+    std::span<const std::uint32_t> neighbor;
+    std::span<const double> factor;
+
+    bool empty() const { return neighbor.empty(); }
+    /// Of the bond with that id.
+    double at(std::uint32_t id) const;
+  };
+  /// Empty where all factors are 1.
+  Row of(std::uint32_t id) const;
+};
+
+/// Of particles at `rest` (m). `share`: the volume of the body around each particle over that of
+/// one inside; `stiffness`: that of the material there over the body's, of which a bond has the
+/// harmonic mean, as springs in series; empty: 1 each. `volume`: K_v there, Pa; empty: the
+/// material's. In parallel, the same for any number of threads. None without bonds of second
+/// neighbors, but for the weights of volumes that are kept.
+BondFactors bond_factors(const Points& rest, const Material& material,
+                         const std::vector<double>& share,
+                         const std::vector<double>& stiffness = {},
+                         const std::vector<double>& volume = {});
+
+}  // namespace sinew

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/body/bone_force.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sinew/core/particles.h>
+
+namespace sinew {
+namespace {
+
+// Closer to the bone than this share of a radius, a particle has no direction from it.
+constexpr double on_axis = 1e-6;
+
+struct Spring {
+  Vec3 force;
+  double energy;
+};
+
+/// Where the bone has moved the particle's foot and its place at rest.
+struct Carried {
+  Vec3 foot, target;
+};
+
+Carried carry(const Influence& influence, const Bone& bone, const BonePose& pose,
+              const Vec3& rest) {
+  return {pose.frame.origin + pose.stretch * influence.foot * (pose.turn * bone.axis()),
+          pose.carried(rest, bone)};
+}
+
+Spring to_point(double k, const Vec3& offset) {
+  return {-k * offset, k * offset.squaredNorm() / 2};
+}
+
+Spring radial(double k, const Vec3& offset, double rest_distance, double radius) {
+  if (rest_distance < on_axis * radius) return to_point(k, offset);
+  const double distance = offset.norm();
+  const double stretch = distance - rest_distance;
+  if (distance == 0) return {Vec3::Zero(), k * stretch * stretch / 2};
+  return {-k * stretch / distance * offset, k * stretch * stretch / 2};
+}
+
+/// U = k rho0^2 s^2 G(alpha), alpha the angle about `axis` from `wanted` to `actual` (both across
+/// the axis), s = min(1, 2 |rho| / rho0): the taper keeps the force finite on the axis.
+Spring twist_servo(double k, const Vec3& axis, const Vec3& wanted, const Vec3& actual,
+                   double radius) {
+  const double rho0 = wanted.norm(), rho = actual.norm();
+  if (rho0 < on_axis * radius || rho == 0) return {Vec3::Zero(), 0};
+  const double alpha = std::atan2(axis.dot(wanted.cross(actual)), wanted.dot(actual));
+  const TwistEnergy G = twist_energy(alpha);
+  const double taper = std::min(1.0, 2 * rho / rho0);
+  const double taper_slope = taper < 1 ? 2 / rho0 : 0;
+  const Vec3 outward = actual / rho;
+  const Vec3 around = axis.cross(outward);
+  const double scale = k * rho0 * rho0 * taper;
+  return {-scale * (G.slope * taper / rho * around + 2 * G.value * taper_slope * outward),
+          scale * taper * G.value};
+}
+
+Vec3 across(const Vec3& axis, const Vec3& offset) { return offset - axis.dot(offset) * axis; }
+
+Spring twist(const BoneSprings& springs, const BonePose& pose, const Carried& carried,
+             const HeldParticle& particle) {
+  const Vec3 axis = pose.axis();
+  const Vec3 actual = across(axis, particle.position - carried.foot);
+  if (springs.twist_form == TwistForm::open_loop)
+    return {springs.twist * pose.twist * axis.cross(actual), 0};
+  return twist_servo(springs.twist, axis, across(axis, carried.target - carried.foot), actual,
+                     particle.radius);
+}
+
+Spring axial(double k, const Vec3& axis, const Vec3& offset) {
+  const double slide = axis.dot(offset);
+  return {-k * slide * axis, k * slide * slide / 2};
+}
+
+BoneSprings springs_of(const BindingOptions& settings, const Material& material, double section,
+                       const BoneStrength& strength) {
+  const double unit =
+      section > 0 ? material.young_modulus() * volume_per_particle(material.pair.r) / section : 0;
+  BoneSprings bone;
+  bone.radial = settings.stiffness * unit * strength.radial;
+  bone.twist = settings.twist_stiffness * unit * strength.twist;
+  bone.axial = settings.axial_stiffness * unit * strength.axial;
+  bone.damping = 2 * settings.bone_damping * std::sqrt(bone.radial * material.mass);
+  bone.form = settings.force;
+  bone.twist_form = settings.twist_form;
+  return bone;
+}
+
+}  // namespace
+
+TwistEnergy twist_energy(double alpha) {
+  const double angle = std::abs(alpha), linear = radians(120), fading = radians(60);
+  if (angle <= linear) return {alpha * alpha / 2, alpha};
+  const double t = std::min(1.0, (angle - linear) / fading);
+  return {linear * linear / 2 + linear * fading * (t - t * t * t + t * t * t * t / 2),
+          std::copysign(linear * (1 - t * t * (3 - 2 * t)), alpha)};
+}
+
+double BoneSprings::stiffest() const {
+  return form == BoneForce::anchor ? radial : std::max({radial, twist, axial});
+}
+
+std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
+                                      const Binding& binding) {
+  std::vector<BoneSprings> springs;
+  for (const double section : binding.cross_section)
+    springs.push_back(springs_of(settings, material, section, {}));
+  return springs;
+}
+
+std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
+                                      const Binding& binding, const Skeleton& skeleton) {
+  std::vector<BoneSprings> springs;
+  for (std::size_t b = 0; b < skeleton.size(); ++b)
+    springs.push_back(
+        springs_of(settings, material, binding.cross_section[b], skeleton.bones[b].strength));
+  return springs;
+}
+
+BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,
+                   const BonePose& pose, const HeldParticle& particle) {
+  const Carried carried = carry(influence, bone, pose, particle.rest);
+  const double level = bone.axis().dot(particle.rest - bone.head());
+  BonePull pull;
+  double stretching = 0;  // N m: power that the springs take from the bone as it grows
+  const auto add = [&](const Spring& spring, double along) {
+    pull.spring += influence.weight * spring.force;
+    pull.energy += influence.weight * spring.energy;
+    stretching += influence.weight * along * pose.axis().dot(spring.force);
+  };
+  const bool anchored = springs.form == BoneForce::anchor;
+  if (anchored) {
+    add(to_point(springs.radial, particle.position - carried.target), level);
+  } else {
+    add(radial(springs.radial, particle.position - carried.foot,
+               influence.distance_to(bone, particle.rest), particle.radius),
+        influence.foot);
+    add(twist(springs, pose, carried, particle), 0);
+    add(axial(springs.axial, pose.axis(), particle.position - carried.target), level);
+  }
+  const Vec3 carried_by = pose.velocity_at(anchored ? carried.target : particle.position);
+  pull.damping = -influence.weight * springs.damping * (particle.velocity - carried_by);
+  const Vec3 bone_velocity = pose.velocity_at(particle.position);
+  pull.power = pull.force().dot(bone_velocity);
+  pull.damping_power = pull.damping.dot(bone_velocity);
+  if (pose.stretch_rate != 0)  // springs are fixed at the foot at rest, not at the particle
+    pull.power += pose.stretch_rate * stretching +
+                  pull.spring.dot(pose.rigid_velocity_at(particle.position) - bone_velocity);
+  return pull;
+}
+
+}  // namespace sinew

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a bone pulls a particle bound to it (Komiya and Tokoi, made well-posed): a radial spring that
+// keeps its distance from the bone, a twist spring that rotates it with the bone, an axial spring
+// against sliding along the bone, and damping of the motion relative to the bone.
+//
+//     const BonePull pull = bone_pull(springs[b], influence, bone, pose[b], particle);
+//     force += pull.force();
+#pragma once
+
+#include <vector>
+
+#include <sinew/core/options.h>
+#include <sinew/material/material.h>
+#include <sinew/rig/binding.h>
+#include <sinew/rig/pose.h>
+
+namespace sinew {
+
+/// Spring constants of one bone on each of its particles.
+struct BoneSprings {
+  double radial = 0;   ///< or of the anchor, N/m
+  double twist = 0;    ///< N/m: the moment is twist rho0^2 alpha
+  double axial = 0;    ///< N/m
+  double damping = 0;  ///< kg/s
+  BoneForce form = BoneForce::paper;
+  TwistForm twist_form = TwistForm::servo;
+
+  double stiffest() const;  ///< N/m
+};
+
+/// The springs of every bone: stiffness E V0 / A of a bone's cross-section A, so that strengths
+/// keep their meaning when radius, size or modulus change. Damping is 2 zeta sqrt(radial mass).
+std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
+                                      const Binding& binding);
+
+/// The same, multiplied by each bone's own factors.
+std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
+                                      const Binding& binding, const Skeleton& skeleton);
+
+/// How the twist spring's energy rises with the angle (rad) from where the bone has turned a
+/// particle to where it is: G = alpha^2 / 2 up to 120 degrees; beyond, its slope falls smoothly to
+/// zero at half a turn, where the direction of the shorter way changes.
+struct TwistEnergy {
+  double value;  ///< G
+  double slope;  ///< dG / dalpha
+};
+TwistEnergy twist_energy(double alpha);
+
+/// The force of one bone on one particle.
+struct BonePull {
+  Vec3 spring = Vec3::Zero();   ///< N
+  Vec3 damping = Vec3::Zero();  ///< N
+  double energy = 0;            ///< stored in the springs, J; 0 for open_loop's twist
+  double power = 0;             ///< from the bone: force times the bone's own velocity there, W
+  double damping_power = 0;     ///< the damping's part of power, W
+
+  Vec3 force() const { return spring + damping; }
+};
+
+/// A particle at rest and at present.
+struct HeldParticle {
+  Vec3 rest, position, velocity;  ///< m, m, m/s
+  double radius;                  ///< m
+  std::size_t id = 0;             ///< in the written order
+};
+
+/// The pull, including the weight, of the bone at `pose` (at rest `bone`) through `influence`.
+BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,
+                   const BonePose& pose, const HeldParticle& particle);
+
+}  // namespace sinew

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/body/forces.h>
+
+#include <algorithm>
+
+#include <sinew/body/pair_pass.h>
+#include <sinew/core/parallel.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::size_t particles_per_task = 512, particles_per_sum = 16384;
+
+HeldParticle held(const Particles& particles, const Body& body, std::size_t i) {
+  return {body.rest[particles.id[i]], particles.position(i), particles.velocity(i),
+          particles.radius};
+}
+
+/// Calls visit(bone, pull) for every bone that holds particle i.
+template <class Visit>
+void for_each_pull(const Particles& particles, const Body& body, const Pose& pose, std::size_t i,
+                   Visit&& visit) {
+  const HeldParticle particle = held(particles, body, i);
+  for (const Influence& influence : body.binding.of(particles.id[i])) {
+    const int b = influence.bone;
+    visit(b, bone_pull(body.springs[b], influence, body.skeleton.bones[b], pose[b], particle));
+  }
+}
+
+}  // namespace
+
+void bone_forces(const Particles& particles, const Body& body, const Pose& pose, Forces& forces) {
+  const std::size_t n = particles.size();
+  for (auto* vectors : {&forces.bone, &forces.bone_damping}) vectors->assign(n, Vec3::Zero());
+  for (auto* powers : {&forces.bone_power, &forces.bone_damping_power}) powers->assign(n, 0.0);
+  parallel_for(n, particles_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for_each_pull(particles, body, pose, i, [&](int, const BonePull& pull) {
+        forces.bone[i] += pull.force();
+        forces.bone_damping[i] += pull.damping;
+        forces.bone_power[i] += pull.power;
+        forces.bone_damping_power[i] += pull.damping_power;
+      });
+  });
+}
+
+std::vector<Reaction> reactions(const Particles& particles, const Points& pulls, const Body& body,
+                                const Pose& pose) {
+  const std::size_t pieces = particles.size() / particles_per_sum + 1;
+  std::vector<std::vector<Reaction>> parts(pieces, std::vector<Reaction>(pose.size()));
+  parallel_for(particles.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
+    auto& part = parts[begin / particles_per_sum];
+    const auto add = [&](int b, std::size_t i, const Vec3& force, double power) {
+      part[b].force -= force;
+      part[b].moment -= (particles.position(i) - pose[b].frame.origin).cross(force);
+      part[b].power += power;
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto bones = body.binding.of(particles.id[i]);
+      if (bones.size() == 1 && pose[bones[0].bone].stretch_rate == 0) {
+        const int b = bones[0].bone;
+        add(b, i, pulls[i], pulls[i].dot(pose[b].rigid_velocity_at(particles.position(i))));
+      } else {
+        for_each_pull(particles, body, pose, i,
+                      [&](int b, const BonePull& pull) { add(b, i, pull.force(), pull.power); });
+      }
+    }
+  });
+  std::vector<Reaction> on(pose.size());
+  for (const auto& part : parts)  // in the order of the pieces, whichever thread computed them
+    for (std::size_t b = 0; b < on.size(); ++b) on[b] += part[b];
+  return on;
+}
+
+std::vector<Reaction> BoneReactions::sums() const {
+  std::vector<Reaction> all = springs;
+  for (const auto* part : {&pins, &obstacles})
+    for (std::size_t b = 0; b < part->size(); ++b) all[b] += (*part)[b];
+  return all;
+}
+
+double bone_energy(const Particles& particles, const Body& body, const Pose& pose) {
+  return parallel_sum(particles.size(), particles_per_task,
+                      [&](std::size_t begin, std::size_t end) {
+                        double sum = 0;
+                        for (std::size_t i = begin; i < end; ++i)
+                          for_each_pull(particles, body, pose, i,
+                                        [&](int, const BonePull& pull) { sum += pull.energy; });
+                        return sum;
+                      });
+}
+
+void pair_forces(const Particles& particles, const Material& material, Forces& forces) {
+  const PairForce& pair = material.pair;
+  const CellGrid cells = cells_of(particles, pair.b);
+  const auto for_each_partner = [&](std::size_t i, auto&& visit) {
+    for_each_neighbor(
+        particles, cells, pair.b, i,
+        [&](std::uint32_t j, const Vec3& offset, double d) { visit(j, offset, d, pair.force(d)); });
+  };
+  pair_pass(particles, material, for_each_partner, forces);
+}
+
+double pair_energy(const Particles& particles, const PairForce& pair) {
+  const CellGrid cells = cells_of(particles, pair.b);
+  return sum_over_particles(particles.size(), [&](std::size_t i) {
+    double sum = 0;
+    for_each_neighbor(particles, cells, pair.b, i, [&](std::uint32_t, const Vec3&, double d) {
+      sum += pair.potential(d) / 2;  // half for each of the two
+    });
+    return sum;
+  });
+}
+
+}  // namespace sinew

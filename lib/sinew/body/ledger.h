@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Work of the bones and losses of a body since the start, step by step.
+//
+//     const StepSums sums = stepper.step(pose);
+//     ledger.add_step(sums.power, sums.lost);
+#pragma once
+
+#include <sinew/core/simulation_state.h>
+
+namespace sinew {
+
+class EnergyLedger {
+ public:
+  explicit EnergyLedger(double step) : step_(step), last_(step) {}
+
+  /// Of the steps that follow, s.
+  void set_step(double step) { step_ = step; }
+
+  /// Adds a step that began with this power of the bones and this loss (W); trapezoidal rule for
+  /// the power.
+  void add_step(double power, double lost) {
+    now_.work = work_until(power);
+    now_.power = power;
+    now_.begun = true;
+    now_.dissipation += step_ * lost;
+    last_ = step_;
+  }
+
+  /// Until a moment with that power, J.
+  double work_until(double power) const {
+    return now_.begun ? now_.work + last_ * (now_.power + power) / 2 : now_.work;
+  }
+  /// Including half of the step that begins with that loss, for the moment of the positions, J.
+  double dissipation_until(double lost) const { return now_.dissipation + step_ * lost / 2; }
+
+  const LedgerEntries& entries() const { return now_; }
+  /// `last`: the size of the step that was added last, s.
+  void restore(const LedgerEntries& entries, double last) {
+    now_ = entries;
+    step_ = last_ = last;
+  }
+
+ private:
+  double step_, last_;  ///< s, of the next step and of the one before
+  LedgerEntries now_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/material/laws.h>
+
+#include <array>
+
+namespace sinew {
+namespace {
+
+double eq_1(const Material& material, double d) { return material.pair.force(d); }
+double eq_1_energy(const Material& material, double d) { return material.pair.potential(d); }
+
+/// Of eq. 1 the part below contact alone.
+double repulsion(const Material& material, double d) {
+  return d < 2 * material.pair.r ? material.pair.force(d) : 0;
+}
+double repulsion_energy(const Material& material, double d) {
+  const PairForce& pair = material.pair;
+  return d < 2 * pair.r ? pair.potential(d) - pair.potential(2 * pair.r) : 0;
+}
+
+double eq_1_bond(const Material& material, const BondSpring&, double d) {
+  return material.pair.force(d);
+}
+double eq_1_bond_energy(const Material& material, const BondSpring&, double d) {
+  return material.pair.potential(d);
+}
+
+double spring(const Material&, const BondSpring& spring, double d) {
+  return -spring.stiffness * (d - spring.length);
+}
+double spring_energy(const Material&, const BondSpring& spring, double d) {
+  return spring.stiffness / 2 * (d - spring.length) * (d - spring.length);
+}
+
+constexpr std::string_view bonded_remark =
+    " Rest neighbors are held by bonds instead; others feel its repulsion.";
+
+constexpr std::array<ForceLaw, 4> laws = {{
+    {MaterialModel::paper, Cohesion::all, "paper", false, false, eq_1, eq_1_energy, eq_1_bond,
+     eq_1_bond_energy, ""},
+    {MaterialModel::paper, Cohesion::initial_neighbors, "paper, initial_neighbors", false, true,
+     repulsion, repulsion_energy, eq_1_bond, eq_1_bond_energy, ""},
+    {MaterialModel::bonded, Cohesion::all, "bonded", true, true, repulsion, repulsion_energy,
+     spring, spring_energy, bonded_remark},
+    {MaterialModel::bonded_volume, Cohesion::all, "bonded_volume", true, true, repulsion,
+     repulsion_energy, spring, spring_energy, bonded_remark},
+}};
+
+}  // namespace
+
+std::span<const ForceLaw> force_laws() { return laws; }
+
+const ForceLaw& law_of(const Material& material) {
+  for (const ForceLaw& law : laws)
+    if (law.model == material.model && (law.has_bonds || law.cohesion == material.cohesion))
+      return law;
+  return laws.front();
+}
+
+bool bonds_change(const Material& material) {
+  return law_of(material).has_bonds &&
+         (material.bond.breaking_strain > 0 || material.bond.yield_shear > 0 ||
+          material.bond.branch_count() > 0);
+}
+
+}  // namespace sinew

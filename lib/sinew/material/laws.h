@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one table of laws of force between particles. The steppers, the metrics and the report's
+// curves take a law from here: to add one, add its choice in core/options.h and its row in
+// laws.cpp.
+//
+//     const ForceLaw& law = law_of(material);
+//     const double newtons = law.force(material, 2.1 * material.pair.r);
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include <sinew/material/material.h>
+
+namespace sinew {
+
+/// Forces in N, positive repels; distances in m; energies in J.
+struct ForceLaw {
+  MaterialModel model;
+  Cohesion cohesion;
+  std::string_view name;  ///< what a scene calls it
+  bool has_bonds;         ///< neighbors at rest are springs, which may creep and break
+  bool has_memory;        ///< it matters who was whose neighbor at rest
+
+  /// Between two particles at distance d that were no neighbors at rest, or have parted.
+  double (*force)(const Material&, double d);
+  double (*energy)(const Material&, double d);
+  /// The same between neighbors at rest.
+  double (*bond_force)(const Material&, const BondSpring&, double d);
+  double (*bond_energy)(const Material&, const BondSpring&, double d);
+
+  std::string_view remark;  ///< for the curve of its force; "" for none
+};
+
+std::span<const ForceLaw> force_laws();
+
+/// The law of a material: bonded models know one cohesion.
+const ForceLaw& law_of(const Material& material);
+
+/// Whether it has bonds that break, creep or relax: its forces then depend on its history.
+bool bonds_change(const Material& material);
+
+}  // namespace sinew

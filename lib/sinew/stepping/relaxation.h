@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Brings a body to rest at one moment after another, by dynamic relaxation: it moves as if damped
+// in proportion to its mass, critically for the mode that moves most at present. Steps are those
+// of the kernel, with a velocity that keeps (2 - c h) / (2 + c h) of itself; c = 2 w, with w^2 the
+// Rayleigh quotient of the motion, -v.(a_n - a_(n-1)) / (h v.v). (Underwood, Dynamic relaxation,
+// in: Computational Methods for Transient Analysis, 1983; Papadrakakis, 1981.)
+//
+//     Relaxation relaxation(load_steps, step, noise);
+//     while (!relaxation.done()) {
+//       const StepSums sums = stepper.try_step(pose_at(relaxation.time()), relaxation.keep());
+//       if (!relaxation.take(sums)) stepper.accept();
+//     }
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <sinew/body/body.h>
+#include <sinew/core/simulation_state.h>
+#include <sinew/stepping/stepper.h>
+
+namespace sinew {
+
+/// When a body is to be at rest: at 0 and then every `interval`; the last may come sooner.
+struct LoadSteps {
+  double interval = 0;     ///< s
+  int count = 1;           ///< moments, that at 0 included
+  double residual = 1e-6;  ///< of forces that nothing answers, over the largest of those applied
+  std::int64_t most_iterations = 200'000;  ///< for each moment
+  /// Before each moment, how many iterations bones and surroundings take to get there from the one
+  /// before; none: one each.
+  std::vector<int> ramp = {};
+  /// A residual that rounding may leave where it hides the one above; 0: none.
+  double acceptable = 0;
+  double last = 1;  ///< the length of the last interval, in whole ones
+};
+
+/// The largest step of a relaxation over the step limit: bent bodies rattle beyond.
+inline constexpr double relaxing_step_factor = 0.8;
+
+/// The body without what resists motion alone: its own damping, that of bones and of a medium, and
+/// branches, which have relaxed; and in a world in which everything stands still at each moment.
+Body undamped(Body body);
+
+/// How a body came to rest.
+struct Equilibrium {
+  std::int64_t iterations = 0;
+  double residual = 0;
+};
+
+class Relaxation {
+ public:
+  struct Iteration {
+    double step = 0;    ///< the largest, s
+    double noise = 0;   ///< what rounding leaves of the forces on all particles, N
+    double radius = 0;  ///< of a particle, m
+  };
+  Relaxation(LoadSteps steps, const Iteration& iteration);
+
+  bool done() const { return now_.at_rest >= steps_.count; }
+  void begin_iteration() { ++now_.iterations; }
+  /// Of the bones and the surroundings in this iteration; of the moment where the body is at rest,
+  /// s.
+  double time() const;
+  double step() const { return step_ * now_.shortened; }  ///< s
+  double keep() const;  ///< the share of the velocities that it leaves
+  /// Moments at which the body has been at rest.
+  int moments() const { return static_cast<int>(now_.at_rest); }
+  /// At the last of them.
+  const Equilibrium& last() const { return last_; }
+  /// Forces that nothing answered in the last iteration over the largest applied; 0 where nothing
+  /// but rounding acts.
+  double residual() const;
+
+  /// Takes what the step found. Whether the body is at rest where it began: the step must not be
+  /// accepted then. Throws Error (unstable) that says why the residual cannot be reached, or has
+  /// not been in the number of iterations.
+  bool take(const StepSums& sums);
+  /// After a step that was rejected: whether to try again, from a halt, with a shorter step.
+  bool shorten();
+
+  const RelaxationState& state() const { return now_; }
+  void restore(const RelaxationState& state);
+
+ private:
+  int ramp() const;
+  double moment(std::int64_t index) const;
+  bool judge(const StepSums& sums);
+  void find_damping(const Imbalance& sums);
+  double reference() const;
+  bool is_at_rest(const Imbalance& sums) const;
+  std::string moment_text() const;
+  [[noreturn]] void refuse_noise() const;
+  [[noreturn]] void give_up() const;
+
+  LoadSteps steps_;
+  double step_, noise_, radius_;
+  RelaxationState now_;
+  Equilibrium last_;
+};
+
+}  // namespace sinew

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces that a testing machine puts on parts of a body: a force, a traction or a weight, which
+// keep their direction, and a pressure, which follows the surface.
+//
+//     LoadNow now(load);
+//     now.find(load.scale.at(time), [&](std::size_t k) { return position_of(k); }, true);
+//     force += now.force(k);   // on particle load.particles[k]
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sinew/core/simulation_state.h>
+#include <sinew/core/triangles.h>
+#include <sinew/world/following_points.h>
+#include <sinew/world/pressed_faces.h>
+#include <sinew/world/region.h>
+
+namespace sinew {
+
+struct Load {
+  std::string name;
+  KeyedValue scale;                            ///< over time; 1 without keys
+  std::vector<std::uint32_t> particles;        ///< on which it acts, by id, ascending
+  std::vector<double> share;                   ///< of each of them in `force`; sums to 1
+  Vec3 force = Vec3::Zero();                   ///< the sum, N
+  double pressure = 0;                         ///< Pa, in addition
+  std::vector<std::array<int, 3>> faces = {};  ///< on which it acts, of `corners`
+  FollowingPoints corners = {};                ///< of places in `particles`
+  Vec3 pivot = Vec3::Zero();                   ///< of its moment, m
+};
+
+/// A force (N) shared by particles as listed, with the same number more than once if need be:
+/// shares are summed and made to sum to 1. Its pivot is the mean of `rest` (m) by shares. Throws
+/// bad input, which names it, for no particles and shares that cancel.
+Load force_load(const std::string& name, const std::vector<std::uint32_t>& particles,
+                const std::vector<double>& shares, const Vec3& force, const Points& rest);
+
+/// As many particles each corner of a pressure follows: of two layers, at least.
+inline constexpr std::size_t followed_by_corners = 12;
+
+/// No side of a pressed face need be shorter, in radii: each corner pushes as many particles of the
+/// outermost layer as there are for each corner, and with 3 instead the stress at the surface is as
+/// even.
+inline constexpr double longest_pressed_side = 4;
+
+/// A pressure (Pa) on all faces of a surface whose points follow the particles at `rest` with
+/// `radius` (m); its shares are those of the area. Throws bad input for no faces.
+Load pressure_load(const std::string& name, const Triangles& surface, double pressure,
+                   const Points& rest, double radius);
+
+/// The area of the faces around each point, as a force on it that is shared by area: (particle,
+/// share) pairs for force_load(), of points that follow the particles at `rest`.
+struct AreaShares {
+  std::vector<std::uint32_t> particles;
+  std::vector<double> shares;  ///< m^2
+  double area = 0;             ///< m^2
+};
+AreaShares area_shares(const Triangles& surface, const Points& rest, double radius);
+
+/// The forces of a load, which must outlive this, at one moment.
+class LoadNow {
+ public:
+  explicit LoadNow(const Load& load)
+      : load_(&load), pressed_(load.faces, load.corners, load.particles.size()) {}
+
+  /// Finds the forces at a moment; `position(k)`: of load.particles[k], m; `stepping`: for a step
+  /// that follows. Returns whether they may have changed. In parallel; the same bits for any number
+  /// of threads.
+  template <class Position>
+  bool find(double scale, const Position& position, bool stepping) {
+    const bool scaled = scale != scale_;
+    scale_ = scale;
+    return pressed_.find(position, stepping) || scaled;
+  }
+
+  /// On load.particles[k], N.
+  Vec3 force(std::size_t k) const {
+    Vec3 sum = scale_ * load_->share[k] * load_->force;
+    if (!pressed_.empty()) sum += scale_ * load_->pressure * pressed_.force(k);
+    return sum;
+  }
+  /// Of its forces as found last, those of a pressure by their lengths, N.
+  double size() const {
+    return std::abs(scale_) * (load_->force.norm() + std::abs(load_->pressure) * pressed_.size());
+  }
+
+  PressedFaces& pressed() { return pressed_; }
+  const PressedFaces& pressed() const { return pressed_; }
+
+ private:
+  const Load* load_;
+  PressedFaces pressed_;
+  double scale_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+void save_loads(std::span<const LoadNow> loads, SimulationState& state);
+/// Throws bad input for a state of other loads.
+void restore_loads(const SimulationState& state, std::span<LoadNow> loads);
+
+/// An upper bound of the stiffness that a load adds to a particle of `radius` (m), N/m.
+double load_stiffness(const Load& load, double radius);
+
+/// Throws bad input, which names the load, for numbers that are not finite and bad keys.
+void check_load(const Load& load);
+
+}  // namespace sinew

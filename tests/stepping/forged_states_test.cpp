@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// States from elsewhere, whose checksums are right: what cannot be of this body is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include <sinew/scene/rig.h>
+#include <sinew/scene/setup.h>
+
+#include "support/all_steppers.h"
+#include "support/expect_error.h"
+
+namespace sinew::forged_states_test {
+namespace {
+
+Simulation begin(Precision precision) {
+  constexpr int planes = 17;
+  constexpr double r = 0.01;
+  const Settings settings = test::in(precision, test::box_scene(planes));
+  const Points rest = test::fcc_box(7, 7, planes, r);
+  Body body = test::make_body(settings, rest);
+  const Particles particles = test::shaken(rest, body.material, 0, 0);
+  const double step = test::step_of(settings, body, 0.5);
+  return {body, motion_of(settings, body.skeleton), particles, stepping_of(settings.solver, step)};
+}
+
+void expect_refused(Precision precision, const std::function<void(SimulationState&)>& forge,
+                    const char* why) {
+  SimulationState state = begin(precision).save();
+  forge(state);
+  test::expect_bad_input([&] { begin(precision).restore(state); }, {why});
+}
+
+TEST(ForgedStates, HaveTheUnitsOfTheBody) {
+  for (const Precision precision : test::precisions) {
+    for (const double length : {0.0, 1e-242, 1e200, std::nan("")})
+      expect_refused(
+          precision, [&](auto& state) { state.whole_numbers.length = length; }, "units");
+    expect_refused(
+        precision, [](auto& state) { state.whole_numbers.box.max().x() = 1e50; }, "units");
+    begin(precision).restore(begin(precision).save());
+  }
+}
+
+TEST(ForgedStates, HaveNoParticleFarAway) {
+  for (const double place : {1e300, -1e30, 1e12})
+    expect_refused(
+        Precision::binary64,
+        [&](auto& state) { std::get<MovingInDouble>(state.moving).x[2][5] = place; }, "far away");
+}
+
+}  // namespace
+}  // namespace sinew::forged_states_test
