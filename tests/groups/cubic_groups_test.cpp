@@ -10,7 +10,9 @@
 #include "support/expect_error.h"
 #include "support/grouped_bar.h"
 
-namespace sinew::groups_test {
+namespace sinew::cubic_groups_test {
+
+using namespace groups_test;
 
 Settings bonded(Precision precision = Precision::binary64) {
   return scene_of(MaterialModel::bonded, DampingForm::paper, precision);
@@ -222,4 +224,4 @@ TEST(CubicGroups, ASqueezeThatTheyDoNotKnowEndsTheRun) {
   test::expect_error(Exit::unstable, [&] { simulation.step(); }, {"squeezed to 0.3"});
 }
 
-}  // namespace sinew::groups_test
+}  // namespace sinew::cubic_groups_test

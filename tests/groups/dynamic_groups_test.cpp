@@ -11,7 +11,9 @@
 #include "support/expect_error.h"
 #include "support/grouped_bar.h"
 
-namespace sinew::groups_test {
+namespace sinew::dynamic_groups_test {
+
+using namespace groups_test;
 namespace {
 
 constexpr int width = 17, height = 97;
@@ -222,4 +224,4 @@ TEST(DynamicGroups, RefuseAnotherMotion) {
 }
 
 }  // namespace
-}  // namespace sinew::groups_test
+}  // namespace sinew::dynamic_groups_test

@@ -6,7 +6,9 @@
 
 #include "support/grouped_bar.h"
 
-namespace sinew::groups_test {
+namespace sinew::group_skins_test {
+
+using namespace groups_test;
 namespace {
 
 /// Of all forces on the particles of a body that is one group, and of a step with them.
@@ -122,4 +124,4 @@ TEST(GroupSkins, CollideWithTheSameBitsOnAnyNumberOfThreadsAndAfterASave) {
 }
 
 }  // namespace
-}  // namespace sinew::groups_test
+}  // namespace sinew::group_skins_test

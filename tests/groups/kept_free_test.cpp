@@ -8,7 +8,9 @@
 
 #include "support/grouped_bar.h"
 
-namespace sinew::groups_test {
+namespace sinew::kept_free_test {
+
+using namespace groups_test;
 namespace {
 
 constexpr int width = 17, height = 97;
@@ -29,7 +31,7 @@ Grouping groups_of(const Bar& bar, const AskedFree& asked) {
 TEST(KeptFree, NothingUnlessAskedFor) { EXPECT_TRUE(kept_free(bar().body, {}).empty()); }
 
 TEST(KeptFree, WhatIsNearTheSurfaceOfABox) {
-  const Bar bar = groups_test::bar();
+  const Bar bar = bar();
   const Box box = bounds(bar.rest);
   const double distance = 5 * r;
   const std::vector<std::uint8_t> kept = kept_free(bar.body, {.surface_distance = distance});
@@ -48,7 +50,7 @@ TEST(KeptFree, WhatIsNearTheSurfaceOfABox) {
 }
 
 TEST(KeptFree, WhatIsInABox) {
-  const Bar bar = groups_test::bar();
+  const Bar bar = bar();
   const Vec3 low(-1, -1, 0), high(0, 1, 20 * r);
   const Grouping all = groups_of(bar, {}), grouping = groups_of(bar, {.region = Box(low, high)});
   for (std::size_t i = 0; i < bar.rest.size(); ++i)
@@ -56,7 +58,7 @@ TEST(KeptFree, WhatIsInABox) {
 }
 
 TEST(KeptFree, WhatABoneHolds) {
-  const Bar bar = groups_test::bar();
+  const Bar bar = bar();
   const Grouping all = groups_of(bar, {}), grouping = groups_of(bar, {.bones = {1}});
   EXPECT_EQ(all.size(), 2U);
   EXPECT_EQ(grouping.size(), 1U);
@@ -66,7 +68,7 @@ TEST(KeptFree, WhatABoneHolds) {
 }
 
 TEST(KeptFree, ByDynamicGroupsToo) {
-  const Bar bar = groups_test::bar();
+  const Bar bar = bar();
   DynamicOptions options{{.joint_distance = 0.7, .least = 256}, 0.03};
   options.sizes.kept_free = kept_free(bar.body, {.surface_distance = 4 * r});
   Simulation simulation = bar.begin();
@@ -79,4 +81,4 @@ TEST(KeptFree, ByDynamicGroupsToo) {
 }
 
 }  // namespace
-}  // namespace sinew::groups_test
+}  // namespace sinew::kept_free_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::adherence_test {
 

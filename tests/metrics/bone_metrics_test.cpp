@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::bone_metrics_test {
 

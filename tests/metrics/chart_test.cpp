@@ -7,7 +7,7 @@
 
 #include <sinew/metrics/report/page.h>
 #include <sinew/metrics/table.h>
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::chart_test {
 

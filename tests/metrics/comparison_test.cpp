@@ -9,7 +9,7 @@
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/report/comparison_page.h>
 #include <sinew/metrics/table.h>
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::comparison_test {
 

@@ -8,7 +8,7 @@
 
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::files_test {
 

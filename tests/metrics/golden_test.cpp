@@ -14,7 +14,7 @@
 #include <sinew/metrics/report/report.h>
 #include <sinew/metrics/summary.h>
 #include "support/golden.h"
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::golden_test {
 

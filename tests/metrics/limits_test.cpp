@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/core/error.h>
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::limits_test {
 

@@ -9,7 +9,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/metrics/table.h>
 #include "support/expect_error.h"
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::measure_test {
 

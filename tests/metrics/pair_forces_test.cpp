@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/core/particles.h>
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::pair_forces_test {
 

@@ -5,7 +5,7 @@
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::particle_arrays_test {
 

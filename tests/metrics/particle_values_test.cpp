@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::particle_values_test {
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::playback_test {
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/metrics/bone_metrics.h>
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::sections_test {
 

@@ -5,7 +5,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/metrics/table.h>
-#include "support/world.h"
+#include "metrics/world.h"
 
 namespace sinew::test::summary_test {
 
