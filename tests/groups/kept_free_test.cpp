@@ -31,7 +31,7 @@ Grouping groups_of(const Bar& bar, const AskedFree& asked) {
 TEST(KeptFree, NothingUnlessAskedFor) { EXPECT_TRUE(kept_free(bar().body, {}).empty()); }
 
 TEST(KeptFree, WhatIsNearTheSurfaceOfABox) {
-  const Bar bar = bar();
+  const Bar bar = kept_free_test::bar();
   const Box box = bounds(bar.rest);
   const double distance = 5 * r;
   const std::vector<std::uint8_t> kept = kept_free(bar.body, {.surface_distance = distance});
@@ -50,7 +50,7 @@ TEST(KeptFree, WhatIsNearTheSurfaceOfABox) {
 }
 
 TEST(KeptFree, WhatIsInABox) {
-  const Bar bar = bar();
+  const Bar bar = kept_free_test::bar();
   const Vec3 low(-1, -1, 0), high(0, 1, 20 * r);
   const Grouping all = groups_of(bar, {}), grouping = groups_of(bar, {.region = Box(low, high)});
   for (std::size_t i = 0; i < bar.rest.size(); ++i)
@@ -58,7 +58,7 @@ TEST(KeptFree, WhatIsInABox) {
 }
 
 TEST(KeptFree, WhatABoneHolds) {
-  const Bar bar = bar();
+  const Bar bar = kept_free_test::bar();
   const Grouping all = groups_of(bar, {}), grouping = groups_of(bar, {.bones = {1}});
   EXPECT_EQ(all.size(), 2U);
   EXPECT_EQ(grouping.size(), 1U);
@@ -68,7 +68,7 @@ TEST(KeptFree, WhatABoneHolds) {
 }
 
 TEST(KeptFree, ByDynamicGroupsToo) {
-  const Bar bar = bar();
+  const Bar bar = kept_free_test::bar();
   DynamicOptions options{{.joint_distance = 0.7, .least = 256}, 0.03};
   options.sizes.kept_free = kept_free(bar.body, {.surface_distance = 4 * r});
   Simulation simulation = bar.begin();
