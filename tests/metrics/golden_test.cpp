@@ -13,8 +13,8 @@
 #include <sinew/metrics/report/page.h>
 #include <sinew/metrics/report/report.h>
 #include <sinew/metrics/summary.h>
-#include "support/golden.h"
 #include "metrics/world.h"
+#include "support/golden.h"
 
 namespace sinew::test::golden_test {
 

@@ -8,8 +8,8 @@
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/metrics/table.h>
-#include "support/expect_error.h"
 #include "metrics/world.h"
+#include "support/expect_error.h"
 
 namespace sinew::test::measure_test {
 

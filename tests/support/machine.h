@@ -5,10 +5,10 @@
 #include <functional>
 #include <memory>
 
-#include <sinew/world/world.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 #include <sinew/scene/world.h>
+#include <sinew/world/world.h>
 
 #include "support/world.h"
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <random>
 
-#include <sinew/core/particles.h>
-#include <sinew/stepping/simulation.h>
 #include <sinew/analysis/time_step.h>
+#include <sinew/core/particles.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 #include <sinew/settings/settings.h>
+#include <sinew/stepping/simulation.h>
 
 namespace sinew::test {
 
