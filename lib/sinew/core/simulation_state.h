@@ -81,8 +81,15 @@ struct RegroupingState {
   std::vector<double> still_since = {};
 };
 
+/// Steps of one size since one of them. In memory alone: those of runs follow a plan.
+struct EvenSteps {
+  std::int64_t from = 0;
+  double since = 0, step = 0;  ///< s; step 0: not known
+};
+
 struct SimulationState {
   std::int64_t steps = 0;
+  EvenSteps even;
   LedgerEntries ledger;
   LedgerEntries world_ledger;  ///< of obstacles, fields, muscles and pins
   double held_at_start = 0;    ///< kinetic energy of what pins hold, J

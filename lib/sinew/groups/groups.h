@@ -48,12 +48,6 @@
 
 namespace sinew {
 
-/// What keeps the particles of a cell of the body in their groups.
-struct HeldCell {
-  double squares = 0;  ///< sum of squares of accelerations that their groups do not follow, m^2/s^4
-  double count = 0;    ///< of particles
-};
-
 /// How a step advances a group, s.
 struct GroupStep {
   double kick = 0, drift = 0, middle = 0;

@@ -19,6 +19,7 @@
 
 #include <sinew/kernel/bond_arrays.h>
 #include <sinew/kernel/group_arrays.h>
+#include <sinew/kernel/instruction_set.h>
 #include <sinew/kernel/strain_arrays.h>
 
 namespace sinew::kernel {
@@ -345,14 +346,6 @@ struct Functions {
   /// Surveys particles relative to `center`.
   Survey (*survey)(const SurveyInput<Real>&, const Coord<Real>* center);
 };
-
-enum class InstructionSet { plain, avx2, avx512 };
-
-/// The best one this processor supports.
-InstructionSet best_instruction_set();
-/// Whether this processor and this build support it.
-bool has(InstructionSet set);
-const char* name_of(InstructionSet set);
 
 template <class Real>
 Functions<Real> functions_of(InstructionSet set);

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include <sinew/rig/skeleton.h>
-#include <sinew/rig/skinning.h>
 
 namespace sinew {
 

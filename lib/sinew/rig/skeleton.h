@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -96,5 +97,23 @@ struct Joint {
 /// in one point.
 Skeleton skeleton_of(const std::vector<Joint>& joints,
                      const char* cure = "give them different places");
+
+// How much each bone moves each point: weights of a file's vertices, interpolated to other points.
+
+struct BoneWeight {
+  int bone = -1;
+  double weight = 0;  ///< > 0
+};
+
+/// Of n points.
+struct BoneWeights {
+  std::vector<std::uint32_t> first;  ///< n + 1 long; point i has [first[i], first[i + 1])
+  std::vector<BoneWeight> weights;   ///< of each point the heaviest first, each bone once, sum 1
+
+  std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
+  std::span<const BoneWeight> of(std::size_t i) const {
+    return {weights.data() + first[i], first[i + 1] - first[i]};
+  }
+};
 
 }  // namespace sinew

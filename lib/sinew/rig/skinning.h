@@ -20,24 +20,6 @@
 
 namespace sinew {
 
-// How much each bone moves each point: weights of a file's vertices, interpolated to other points.
-
-struct BoneWeight {
-  int bone = -1;
-  double weight = 0;  ///< > 0
-};
-
-/// Of n points.
-struct BoneWeights {
-  std::vector<std::uint32_t> first;  ///< n + 1 long; point i has [first[i], first[i + 1])
-  std::vector<BoneWeight> weights;   ///< of each point the heaviest first, each bone once, sum 1
-
-  std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
-  std::span<const BoneWeight> of(std::size_t i) const {
-    return {weights.data() + first[i], first[i + 1] - first[i]};
-  }
-};
-
 /// A rig as its file has it, in its own directions and units.
 struct SkinnedRig {
   Rig rig;

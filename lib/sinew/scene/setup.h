@@ -11,12 +11,14 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/surface_look.h>
 #include <sinew/core/triangles.h>
+#include <sinew/groups/dynamic/dynamic_groups.h>
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/machine.h>
 #include <sinew/scene/scene_files.h>
 #include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
+#include <sinew/stepping/equilibrium.h>
 #include <sinew/stepping/simulation.h>
 
 namespace sinew {

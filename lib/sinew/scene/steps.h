@@ -12,9 +12,9 @@
 
 #include <sinew/analysis/time_step.h>
 #include <sinew/body/step_plan.h>
-#include <sinew/kernel/kernel.h>
+#include <sinew/kernel/instruction_set.h>
 #include <sinew/settings/settings.h>
-#include <sinew/stepping/relaxation.h>
+#include <sinew/stepping/equilibrium.h>
 
 namespace sinew {
 

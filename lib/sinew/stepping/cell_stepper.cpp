@@ -44,10 +44,11 @@ CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepp
 }
 
 /// Moves held particles exactly to their positions: no error accumulates over steps.
-void CellStepper::hold(const Pose& pose) {
+void CellStepper::hold(const TimedPose& moment) {
   if (held_.empty()) return;
   const World& world = *body_->world;
-  const std::vector<ObstaclePose> supports = poses_of(world.supports, time_, pose);
+  const Pose& pose = moment.pose;
+  const std::vector<ObstaclePose> supports = poses_of(world.supports, moment.time, pose);
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const Pinned& pin = world.pins[k];
     const std::size_t i = held_[k];
@@ -75,9 +76,9 @@ void CellStepper::find_loads(const WorldNow& now) {
 }
 
 /// After all other forces: dry friction answers them, and pins and supports take whatever is left.
-void CellStepper::find_world_forces(const Pose& pose) {
+void CellStepper::find_world_forces(const TimedPose& moment) {
   const World& world = *body_->world;
-  const WorldNow now = world_at(world, time_, pose);
+  const WorldNow now = world_at(world, moment.time, moment.pose);
   muscle_forces(world.muscles, now.activations, particles_, muscle_);
   find_loads(now);
   reactions_.assign(world.obstacles.size(), {});
@@ -96,7 +97,7 @@ void CellStepper::find_world_forces(const Pose& pose) {
                           reactions_);
     forces_.world[i] += around_[i].force();
   }
-  hold_back(now, pose);
+  hold_back(now, moment.pose);
   for (std::size_t n = 0; n < loads_.size(); ++n)
     for (std::size_t k = 0; k < world.loads[n].particles.size(); ++k) {
       const Load& load = world.loads[n];
@@ -144,20 +145,20 @@ void CellStepper::find_friction() {
   }
 }
 
-void CellStepper::find_forces(const Pose& pose) {
-  hold(pose);
+void CellStepper::find_forces(const TimedPose& now) {
+  hold(now);
   if (solid_) {
     solid_->branches().begin(stepping_.step);
     solid_->forces(particles_, forces_);
   } else {
     pair_forces(particles_, body_->material, forces_);
   }
-  bone_forces(particles_, *body_, pose, forces_);
+  bone_forces(particles_, *body_, now.pose, forces_);
   forces_.world.clear();
   friction_.clear();
   if (sliding_.any()) find_friction();
   if (body_->world)
-    find_world_forces(pose);
+    find_world_forces(now);
   else
     forces_.world = friction_;
 }
@@ -186,7 +187,7 @@ void CellStepper::read(BondRest& rest) const {
   set(solid_->bonds().second, false);
 }
 
-void CellStepper::save(SimulationState& state) const {
+void CellStepper::save(SimulationState& state) {
   const Particles& now = particles_;
   state.moving = MovingInDouble{{now.x, now.y, now.z}, {now.u, now.v, now.w}};
   state.kicked = kicked_;
@@ -270,7 +271,7 @@ StepSums CellStepper::sums() const {
   return sums;
 }
 
-void CellStepper::advance(std::size_t i, double kick) {
+void CellStepper::move(std::size_t i, double kick) {
   const Vec3 x = particles_.position(i), v = particles_.velocity(i);
   const Vec3 kicked = v + kick * acceleration(i);
   const bool drift_first = stepping_.integrator == Integrator::explicit_euler;
@@ -312,9 +313,17 @@ Failure CellStepper::take_back(const Pose& pose) {
   return failure;
 }
 
-StepSums CellStepper::step(const Pose& pose) {
+void CellStepper::advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) {
+  for (const TimedPose& begin : begins) {
+    sums.push_back(step(begin));
+    if (sums.back().failure) return;
+  }
+}
+
+StepSums CellStepper::step(const TimedPose& moment) {
+  const Pose& pose = moment.pose;
   stepping_now_ = true;
-  find_forces(pose);
+  find_forces(moment);
   stepping_now_ = false;
   StepSums sums = this->sums();
   if (solid_) sums.lost += solid_->evolve(particles_, stepping_.step) / stepping_.step;
@@ -326,7 +335,7 @@ StepSums CellStepper::step(const Pose& pose) {
   parallel_for(now.size(), particles_per_cell_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Particle before{particles_.position(i), particles_.velocity(i)};
-      advance(i, kick);
+      move(i, kick);
       if (!sound(i, before, pose)) failed = true;
     }
   });
@@ -339,8 +348,8 @@ StepSums CellStepper::step(const Pose& pose) {
   return sums;
 }
 
-Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
-  find_forces(pose);
+Balance CellStepper::evaluate(const TimedPose& moment, Forces& forces) {
+  find_forces(moment);
   const StepSums now = sums();
   forces.pair = forces_.pair;
   forces.damping = forces_.damping;
@@ -349,16 +358,17 @@ Balance CellStepper::evaluate(const Pose& pose, Forces& forces) {
   forces.neighbors = forces_.neighbors;
   double contact = 0;
   for (const ParticleWorld& on : around_) contact += on.contact_energy;
-  return {now.power,       now.lost, stored_in_pairs(), bone_energy(particles_, *body_, pose),
-          now.world_power, contact,  now.held_kinetic};
+  return {
+      now.power,       now.lost, stored_in_pairs(), bone_energy(particles_, *body_, moment.pose),
+      now.world_power, contact,  now.held_kinetic};
 }
 
-void CellStepper::read(const Pose& pose, Particles& particles) {
-  hold(pose);
+void CellStepper::read(const TimedPose& now, Particles& particles) {
+  hold(now);
   particles = particles_;
   if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;
   Forces forces;
-  evaluate(pose, forces);
+  evaluate(now, forces);
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.set_velocity(i, particles.velocity(i) + stepping_.step / 2 * acceleration(i));
 }

@@ -3,7 +3,7 @@
 // reference.
 //
 //     CellStepper stepper(body, stepping, particles);
-//     const StepSums sums = stepper.step(pose);
+//     stepper.advance(moments, sums);
 #pragma once
 
 #include <memory>
@@ -19,51 +19,42 @@
 
 namespace sinew {
 
-class CellStepper {
+class CellStepper final : public Stepper {
  public:
+  /// Throws bad input for groups of particles, which it has none of.
   CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping, Particles particles);
 
-  /// Time (s) of the next call: surroundings change with it.
-  void set_time(double time) { time_ = time; }
-  /// Of the steps that follow, s; velocities stay as they are.
-  void set_step(double step) { stepping_.step = step; }
-
-  StepSums step(const Pose& pose);
-  Balance evaluate(const Pose& pose, Forces& forces);
-  void read(const Pose& pose, Particles& particles);
-  /// Bonds broken so far, by particle; none for a body without bonds.
-  std::vector<std::int32_t> broken_bonds() const;
-  void read(BondRest& rest) const;
-  /// As evaluated last; none without a world.
-  std::vector<Reaction> reactions_of_obstacles() const { return reactions_; }
-  /// On each bone; none without pins.
-  std::vector<Reaction> reactions_of_pins() const { return of_pins_; }
-  /// On the body; as evaluated last.
-  std::vector<Reaction> of_supports() const { return of_supports_; }
-  std::vector<Reaction> of_loads() const { return of_loads_; }
-
-  void fit_groups() {}  ///< has none
-  void save(SimulationState& state) const;
-  void restore(const SimulationState& state);
+  void advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) override;
+  void set_step(double step) override { stepping_.step = step; }
+  Balance evaluate(const TimedPose& now, Forces& forces) override;
+  void read(const TimedPose& now, Particles& particles) override;
+  WorldReactions reactions() const override {
+    return {reactions_, of_pins_, of_supports_, of_loads_};
+  }
+  std::vector<std::int32_t> broken_bonds() const override;
+  void read(BondRest& rest) const override;
+  void save(SimulationState& state) override;
+  void restore(const SimulationState& state) override;
 
  private:
   struct Particle {
     Vec3 position, velocity;
   };
 
-  void find_forces(const Pose& pose);
-  void find_world_forces(const Pose& pose);
+  StepSums step(const TimedPose& now);
+  void find_forces(const TimedPose& now);
+  void find_world_forces(const TimedPose& now);
   void find_loads(const WorldNow& now);
   void find_friction();
   void hold_back(const WorldNow& now, const Pose& pose);
-  void hold(const Pose& pose);
+  void hold(const TimedPose& now);
   double stored_in_pairs();
   double mass(std::size_t i) const;
   Vec3 acceleration(std::size_t i) const;
   Vec3 velocity_now(std::size_t i) const;
   void add_world(StepSums& sums) const;
   StepSums sums() const;
-  void advance(std::size_t i, double kick);
+  void move(std::size_t i, double kick);
   Vec3 moved(std::size_t i, const Particle& before, const Pose& pose) const;
   bool sound(std::size_t i, const Particle& before, const Pose& pose) const;
   Failure take_back(const Pose& pose);
@@ -74,7 +65,6 @@ class CellStepper {
   std::optional<Solid> solid_;  ///< of materials whose forces depend on the neighbors at rest
   Forces forces_;
   MovingInDouble before_;  ///< the step
-  double time_ = 0;
   std::vector<ParticleWorld> around_;
   Points muscle_, load_, friction_;
   SlidingContacts sliding_;

@@ -134,16 +134,18 @@ void ListStepper<Real>::on_all_pieces(const std::function<void(std::size_t, std:
 
 /// Puts what pins hold at its place.
 template <class Real>
-void ListStepper<Real>::hold(const Pose& pose) {
+void ListStepper<Real>::hold(const TimedPose& now) {
   moved_.resize(totals_.size());
-  surroundings_.hold(pose, time_, layout_.now, layout_.units(), moved_);
+  surroundings_.hold(now.pose, now.time, layout_.now, layout_.units(), moved_);
 }
 
 /// The work at the pose, with what must be known of all particles before; `whole`: of groups as
 /// well.
 template <class Real>
-kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forces, bool whole) {
-  hold(pose);
+kernel::Step<Real> ListStepper<Real>::begin(const TimedPose& moment, Points* world_forces,
+                                            bool whole) {
+  const auto& [time, pose] = moment;
+  hold(moment);
   update_lists();
   if (whole) groups_.show_all(layout_.now, layout_.units());
   groups_.watch(lists_.arrays(), lists_.take_changed(), bonds_,
@@ -151,9 +153,9 @@ kernel::Step<Real> ListStepper<Real>::begin(const Pose& pose, Points* world_forc
   groups_.place(layout_.now, layout_.units());
   if (!whole) groups_.wake(layout_.now, layout_.units());
   place_bones(pose);
-  surroundings_.begin(pose, time_, layout_.now, layout_.units(), lists_, world_forces);
+  surroundings_.begin(pose, time, layout_.now, layout_.units(), lists_, world_forces);
   if (has_muscles(*body_))
-    strain_.fibers.set_activations(activations_at(body_->world->muscles, time_));
+    strain_.fibers.set_activations(activations_at(body_->world->muscles, time));
   auto now = job();
   if (whole) now.grouped = {};
   find_deformation(now);
@@ -215,10 +217,18 @@ StepSums ListStepper<Real>::sums_of_totals() const {
 }
 
 template <class Real>
-StepSums ListStepper<Real>::step(const Pose& pose) {
-  StepSums sums = run(begin(pose, nullptr, false), pose);
-  if (!sums.failure) accept();
-  return sums;
+void ListStepper<Real>::advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) {
+  for (const TimedPose& now : begins) {
+    sums.push_back(run(begin(now, nullptr, false), now.pose));
+    if (sums.back().failure) return;
+    accept();
+  }
+}
+
+template <class Real>
+WorldReactions ListStepper<Real>::reactions() const {
+  return {surroundings_.reactions(), surroundings_.reactions_of_pins(), surroundings_.of_supports(),
+          surroundings_.of_loads()};
 }
 
 template <class Real>
@@ -394,12 +404,10 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   lists_ = lists_.anew(stepping_.step);
 }
 
-// What is read from a list stepper between steps.
-
 template <class Real>
-Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
+Balance ListStepper<Real>::evaluate(const TimedPose& moment, Forces& forces) {
   Points of_world;
-  const auto now = begin(pose, surroundings_.any() ? &of_world : nullptr, true);
+  const auto now = begin(moment, surroundings_.any() ? &of_world : nullptr, true);
   const double newtons =
       mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
   const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
@@ -419,13 +427,13 @@ Balance ListStepper<Real>::evaluate(const Pose& pose, Forces& forces) {
 }
 
 template <class Real>
-void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
-  hold(pose);
+void ListStepper<Real>::read(const TimedPose& now, Particles& particles) {
+  hold(now);
   groups_.show_all(layout_.now, layout_.units());
   layout_.read(particles);
   if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;
   Forces forces;
-  evaluate(pose, forces);
+  evaluate(now, forces);
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.set_velocity(
         i, particles.velocity(i) +
@@ -435,14 +443,14 @@ void ListStepper<Real>::read(const Pose& pose, Particles& particles) {
                     stepping_.gravity));
 }
 
-// Where bonds of a list stepper may flow. That is found before a step; but only of pieces that may
-// have come to it since they were looked at, which most of a body has not.
+// Where bonds may flow is found before a step, but only of pieces that may have come to it since
+// they were looked at, which most of a body has not.
 
 namespace {
 
 /// How far particles may move relative to each other, at least, before any of them yields.
 ///
-/// With e = (d - l) d / l0^2 of each bond, the tensor T of ../solid.h is a mean of (e - mean e) n
+/// With e = (d - l) d / l0^2 of each bond, the tensor T of body/solid.h is a mean of (e - mean e) n
 /// n^T. If the two particles of every bond move relative to each other by g at most, e changes by
 /// no more than ((d + |d - l|) g + g^2) / l0^2, and n n^T, of norm 1, by no more than 2.3 g / d,
 /// for g below d / 2. The shear is the norm of D = 15/2 dev T.
@@ -473,8 +481,6 @@ void ListStepper<Real>::find_flow(const kernel::Step<Real>& now) {
     lists_.looked_at(
         piece, relaxes ? 0 : still_length(bonds_.look[piece], diameter, lists_.outer_range()));
 }
-
-// What went wrong in a step.
 
 /// The particles that failed, in the caller's order; the fastest one where rounding leaves none.
 template <class Real>
@@ -510,15 +516,13 @@ Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const
   return layout_.next.velocity(k, layout_.units()) - carried;
 }
 
-// Steps of a relaxation: see ../relaxation.h.
-
 template <class Real>
-StepSums ListStepper<Real>::try_step(const Pose& pose, double keep) {
-  auto now = begin(pose, nullptr, false);
+StepSums ListStepper<Real>::try_step(const TimedPose& moment, double keep) {
+  auto now = begin(moment, nullptr, false);
   now.relaxes = true;
   now.keep = static_cast<Real>(keep);
   now.kick = static_cast<Real>(stepping_.step / layout_.units().time * (1 + keep) / 2);
-  StepSums sums = run(now, pose);
+  StepSums sums = run(now, moment.pose);
   sums.imbalance = imbalance();
   return sums;
 }
@@ -555,8 +559,6 @@ Imbalance ListStepper<Real>::imbalance() const {
     sum.applied = std::max({sum.applied, support.force.norm(), support.moment.norm() / extent_});
   return sum;
 }
-
-// What changes where other particles move as one.
 
 template <class Real>
 void ListStepper<Real>::regroup() {

@@ -24,44 +24,34 @@
 namespace sinew {
 
 template <class Real>
-class ListStepper {
+class ListStepper final : public Stepper {
  public:
   /// Frees the motion of the particles as soon as it is in the kernel's layout: bonds and lists
   /// take memory too.
   ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping, Particles& particles,
               kernel::InstructionSet instructions);
 
-  void set_time(double time) { time_ = time; }  ///< of the pose, s
-  /// Of the steps that follow, s; velocities stay as they are.
-  void set_step(double step);
-  StepSums step(const Pose& pose);
-  /// A step of a relaxation: velocities keep that share of themselves, and gain accordingly less.
-  /// Moves nothing yet: accept() does.
-  StepSums try_step(const Pose& pose, double keep);
-  void accept();
-  void halt();  ///< all velocities become 0
-  Balance evaluate(const Pose& pose, Forces& forces);
-  void read(const Pose& pose, Particles& particles);
-  ListCounts counts() const;
-  /// By particle in the caller's order; none where the material has no bonds.
-  std::vector<std::int32_t> broken_bonds() const;
-  void read(BondRest& rest) const;
-  /// As evaluated last.
-  std::vector<Reaction> reactions_of_obstacles() const { return surroundings_.reactions(); }
-  std::vector<Reaction> reactions_of_pins() const { return surroundings_.reactions_of_pins(); }
-  std::vector<Reaction> of_supports() const { return surroundings_.of_supports(); }
-  std::vector<Reaction> of_loads() const { return surroundings_.of_loads(); }
+  void advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) override;
+  void set_step(double step) override;
+  Balance evaluate(const TimedPose& now, Forces& forces) override;
+  void read(const TimedPose& now, Particles& particles) override;
+  WorldReactions reactions() const override;
+  std::vector<std::int32_t> broken_bonds() const override;
+  void read(BondRest& rest) const override;
+  ListCounts counts() const override;
+  void save(SimulationState& state) override;
+  void restore(const SimulationState& state) override;
 
-  /// After the body's grouping has changed: the groups move as their particles do, as nearly as
-  /// they can.
-  void regroup();
-  /// By cell of the body (`cell`: of each particle, by id), after a step.
-  std::vector<HeldCell> held(std::span<const std::int32_t> cell, std::size_t cells) const;
-  /// Groups move as their particles do, as nearly as they can.
-  void fit_groups() { groups_.begin(layout_.now, layout_.units()); }
+  /// Particles in groups relax nothing.
+  bool relaxes() const override { return !groups_.any(); }
+  StepSums try_step(const TimedPose& now, double keep) override;
+  void accept() override;
+  void halt() override;
 
-  void save(SimulationState& state);
-  void restore(const SimulationState& state);
+  bool has_groups() const override { return true; }
+  void regroup() override;
+  void fit_groups() override { groups_.begin(layout_.now, layout_.units()); }
+  std::vector<HeldCell> held(std::span<const std::int32_t> cell, std::size_t cells) const override;
 
  private:
   static constexpr int block = BlockState<Real>::block;
@@ -75,9 +65,9 @@ class ListStepper {
   kernel::Holds<Real> holds() const;
   kernel::Step<Real> job();
   void on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run);
-  void hold(const Pose& pose);
+  void hold(const TimedPose& now);
   void follow_units();
-  kernel::Step<Real> begin(const Pose& pose, Points* world_forces, bool whole);
+  kernel::Step<Real> begin(const TimedPose& now, Points* world_forces, bool whole);
   void find_deformation(const kernel::Step<Real>& now);
   void find_flow(const kernel::Step<Real>& now);
   GroupedParticles grouped();
@@ -114,7 +104,6 @@ class ListStepper {
   std::vector<Real> masses_;           ///< over mass_, padded at the end; empty: 1 each
   std::vector<std::uint8_t> careful_;  ///< by vector of particles; see kernel::Step
   std::vector<Real> share_;            ///< padded; empty unless damping acts pair by pair
-  double time_ = 0;
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)

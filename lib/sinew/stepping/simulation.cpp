@@ -7,10 +7,17 @@
 #include <utility>
 
 #include <sinew/analysis/instability.h>
+#include <sinew/body/ledger.h>
 #include <sinew/body/solid.h>
+#include <sinew/body/step_plan.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
+#include <sinew/groups/make_grouping.h>
+#include <sinew/stepping/cell_stepper.h>
+#include <sinew/stepping/dynamic_grouping.h>
+#include <sinew/stepping/equilibrium.h>
+#include <sinew/stepping/list_stepper.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
@@ -38,68 +45,182 @@ bool is_finite(const LedgerEntries& ledger) {
 
 }  // namespace
 
-Simulation::Stepper Simulation::make_stepper(const std::shared_ptr<const Body>& body,
-                                             const Stepping& stepping, Particles& particles,
-                                             kernel::InstructionSet instructions) {
-  if (stepping.neighbor_search == NeighborSearch::cells)
-    return CellStepper(body, stepping, particles);
-  if (stepping.precision == Precision::binary32)
-    return ListStepper<float>(body, stepping, particles, instructions);
-  return ListStepper<double>(body, stepping, particles, instructions);
+namespace {
+
+MakeStepper built_in(kernel::InstructionSet instructions) {
+  return [instructions](std::shared_ptr<const Body> body, const Stepping& stepping,
+                        Particles& particles) -> std::unique_ptr<Stepper> {
+    if (stepping.neighbor_search == NeighborSearch::cells)
+      return std::make_unique<CellStepper>(std::move(body), stepping, particles);
+    if (stepping.precision == Precision::binary32)
+      return std::make_unique<ListStepper<float>>(std::move(body), stepping, particles,
+                                                  instructions);
+    return std::make_unique<ListStepper<double>>(std::move(body), stepping, particles,
+                                                 instructions);
+  };
 }
+
+}  // namespace
+
+struct Simulation::Parts {
+  Parts(Body given, Motion given_motion, Particles given_particles, const Stepping& first,
+        MakeStepper with)
+      : body(std::make_shared<Body>(std::move(given))),
+        motion(std::make_shared<const Motion>(std::move(given_motion))),
+        cursor(body->skeleton, *motion),
+        stepping(first),
+        plan(first.step),
+        unit_of_time(first.step),
+        make(std::move(with)),
+        stepper(make(body, first, checked(given_particles))),
+        ledger(first.step),
+        world_ledger(first.step),
+        particles(std::move(given_particles)) {
+    free_motion(particles);
+  }
+
+  std::shared_ptr<Body> body;  ///< whose grouping may change
+  std::shared_ptr<const Motion> motion;
+  PoseCursor cursor;
+  Stepping stepping;  ///< with the step made last
+  StepPlan plan;
+  std::int64_t plan_from = 0;  ///< the step at which the plan begins, and its time, s
+  double plan_since = 0;
+  double unit_of_time;  ///< of velocities in single precision, s
+  std::int64_t steps = 0;
+  MakeStepper make;
+  std::unique_ptr<Stepper> stepper;
+  std::unique_ptr<Relaxation> relaxation;
+  std::unique_ptr<DynamicGrouping> dynamic;
+  EnergyLedger ledger, world_ledger;
+  double held_at_start = 0;  ///< kinetic energy of what pins hold, J
+
+  std::vector<Offender> offenders;
+  std::vector<TimedPose> moments;  ///< memory of those of the steps
+  std::vector<StepSums> sums;      ///< the same
+  Particles particles;             ///< as read last; radius, mass and ids are always valid
+  bool read = false;               ///< whether they are those of the present moment
+  Forces forces;
+  Balance balance;
+  bool evaluated = false;
+};
 
 Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
                        kernel::InstructionSet instructions)
-    : body_(std::make_shared<Body>(std::move(body))),
-      motion_(std::make_shared<const Motion>(std::move(motion))),
-      cursor_(body_->skeleton, *motion_),
-      stepping_(stepping),
-      plan_(stepping.step),
-      unit_of_time_(stepping.step),
-      stepper_(make_stepper(body_, stepping, checked(particles), instructions)),
-      ledger_(stepping.step),
-      world_ledger_(stepping.step),
-      particles_(std::move(particles)) {
-  forget_read();
+    : Simulation(std::move(body), std::move(motion), std::move(particles), stepping,
+                 built_in(instructions)) {}
+
+Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
+                       MakeStepper make)
+    : its_(std::make_unique<Parts>(std::move(body), std::move(motion), std::move(particles),
+                                   stepping, std::move(make))) {}
+
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+const Relaxation* Simulation::relaxation() const { return its_->relaxation.get(); }
+const std::vector<Offender>& Simulation::offenders() const { return its_->offenders; }
+std::int64_t Simulation::steps() const { return its_->steps; }
+const Body& Simulation::body() const { return *its_->body; }
+const Pose& Simulation::pose() const { return its_->cursor.at(time()); }
+
+double Simulation::mass(std::size_t i) const {
+  return mass_of(*its_->body, static_cast<std::size_t>(its_->particles.id[i]),
+                 its_->particles.mass);
 }
 
 void Simulation::follow(StepPlan plan) {
-  plan_ = std::move(plan);
-  set_step(plan_.step(0));
+  its_->plan = std::move(plan);
+  set_step(its_->plan.step(0));
 }
 
-double Simulation::time() const { return relaxation_ ? relaxation_->time() : plan_.time(steps_); }
+void Simulation::relax(LoadSteps steps) {
+  its_->relaxation = std::make_unique<Relaxation>(
+      std::move(steps), relaxation_of(*its_->body, *its_->stepper, its_->stepping.step));
+}
+
+double Simulation::time() const {
+  return its_->relaxation ? its_->relaxation->time()
+                          : its_->plan_since + its_->plan.time(its_->steps - its_->plan_from);
+}
 
 void Simulation::play(Motion motion) {
-  if (body_->grouping || dynamic_)
+  if (its_->body->grouping || its_->dynamic)
     throw bad_input("groups of particles are made for one motion, which another cannot replace",
                     "set hierarchy.enabled to false");
-  motion_ = std::make_shared<const Motion>(std::move(motion));
-  cursor_ = PoseCursor(body_->skeleton, *motion_);
-  evaluated_ = false;
+  its_->motion = std::make_shared<const Motion>(std::move(motion));
+  its_->cursor = PoseCursor(its_->body->skeleton, *its_->motion);
+  its_->evaluated = false;
+}
+
+void Simulation::set_time_step(double step) {
+  if (its_->relaxation || !its_->plan.is_even())
+    throw bad_input("the steps follow a plan", "give the step before the run, in the plan");
+  if (!(step > 0) || !is_computable(step))
+    throw bad_input("a time step of " + three_digits(step) + " s", "give a positive one");
+  its_->plan_since = time();
+  its_->plan_from = its_->steps;
+  its_->plan = StepPlan(step);
+}
+
+namespace {
+
+/// Throws bad input unless a body of the one may go on as one of the other.
+void check_variant(const Material& now, const Material& next) {
+  const BondStrength &a = now.bond, &b = next.bond;
+  if (now.model != next.model || now.cohesion != next.cohesion || now.pair.r != next.pair.r ||
+      now.pair.b != next.pair.b || now.mass != next.mass || (a.second > 0) != (b.second > 0) ||
+      (a.breaking_strain > 0) != (b.breaking_strain > 0) ||
+      (a.yield_shear > 0) != (b.yield_shear > 0))
+    throw bad_input("the material has another model, or other particles, than the body",
+                    "begin a simulation of that body");
+}
+
+}  // namespace
+
+void Simulation::set_material(const Material& material) {
+  if (its_->body->grouping || its_->dynamic)
+    throw bad_input("groups of particles are made for one material, which another cannot replace",
+                    "set hierarchy.enabled to false");
+  check_variant(its_->body->material, material);
+  const SimulationState state = save();
+  Particles particles = take_particles();
+  Stepping first = its_->stepping;
+  first.step = its_->unit_of_time;
+  auto body = std::make_shared<Body>(*its_->body);
+  body->material = material;
+  std::unique_ptr<Stepper> stepper = its_->make(body, first, particles);
+  stepper->set_step(its_->stepping.step);
+  stepper->restore(state);
+  its_->body = std::move(body);
+  its_->cursor = PoseCursor(its_->body->skeleton, *its_->motion);
+  its_->stepper = std::move(stepper);
+  its_->evaluated = false;
+  forget_read();
 }
 
 void Simulation::set_step(double step) {
-  stepping_.step = step;
-  std::visit([&](auto& stepper) { stepper.set_step(step); }, stepper_);
-  ledger_.set_step(step);
-  world_ledger_.set_step(step);
+  its_->stepping.step = step;
+  its_->stepper->set_step(step);
+  its_->ledger.set_step(step);
+  its_->world_ledger.set_step(step);
 }
 
 /// Velocities are half a step behind the positions (velocity Verlet's are read half a step later):
 /// from now on half a step of the new size.
 void Simulation::change_step(double step) {
   evaluate();
-  const bool behind = stepping_.integrator != Integrator::explicit_euler && steps_ > 0;
-  const double later = behind ? (stepping_.step - step) / 2 : 0;
+  const bool behind = its_->stepping.integrator != Integrator::explicit_euler && its_->steps > 0;
+  const double later = behind ? (its_->stepping.step - step) / 2 : 0;
   SimulationState state = save();
   const double unit = std::holds_alternative<MovingInSingle>(state.moving)
-                          ? state.whole_numbers.length / unit_of_time_
+                          ? state.whole_numbers.length / its_->unit_of_time
                           : 1;
   const auto shift = [&](auto& moving) {
     for (std::size_t k = 0; k < moving.x[0].size(); ++k) {
       const std::size_t i = state.order.empty() ? k : state.order[k];
-      const Vec3 gain = later / unit * (forces_.total(i) / mass(i) + stepping_.gravity);
+      const Vec3 gain = later / unit * (its_->forces.total(i) / mass(i) + its_->stepping.gravity);
       for (int axis = 0; axis < 3; ++axis) {
         auto& v = moving.v[axis][k];
         v = static_cast<std::remove_reference_t<decltype(v)>>(v + gain[axis]);
@@ -107,52 +228,156 @@ void Simulation::change_step(double step) {
     }
   };
   std::visit(shift, state.moving);
-  std::visit([&](auto& stepper) { stepper.restore(state), stepper.fit_groups(); }, stepper_);
+  its_->stepper->restore(state);
+  its_->stepper->fit_groups();
   set_step(step);
   forget_read();
 }
 
-void Simulation::step() {
-  evaluated_ = false;
-  if (read_) forget_read();
-  if (relaxation_) return relax_once();
-  if (const double next = plan_.step(steps_); next != stepping_.step) change_step(next);
-  const Pose& now = pose();
-  set_time();
-  StepSums sums = std::visit([&](auto& stepper) { return stepper.step(now); }, stepper_);
-  if (sums.failure) {
-    offenders_ = std::move(sums.failure->all);
-    fail();
+void Simulation::advance(std::int64_t steps) {
+  while (steps > 0) {
+    its_->evaluated = false;
+    if (its_->read) forget_read();
+    if (its_->relaxation) {
+      relax_once();
+      --steps;
+      continue;
+    }
+    if (const double next = its_->plan.step(its_->steps - its_->plan_from);
+        next != its_->stepping.step)
+      change_step(next);
+    its_->evaluated = false;  // of the moment before these
+    const std::int64_t count = steps_of_one_size(steps);
+    make_steps(count);
+    steps -= count;
+    check_groups();
   }
-  ledger_.add_step(sums.power, sums.lost);
-  world_ledger_.add_step(sums.world_power, 0);
-  if (steps_ == 0) held_at_start_ = sums.held_kinetic;
-  ++steps_;
-  check_groups();
 }
 
-void Simulation::set_time() const {
-  std::visit([&](auto& stepper) { stepper.set_time(time()); }, stepper_);
+/// That many at once: until their size changes, or groups are looked at.
+std::int64_t Simulation::steps_of_one_size(std::int64_t most) const {
+  constexpr std::int64_t at_once = 64;  // whose poses are kept
+  most = std::min(most, at_once);
+  if (its_->dynamic) most = std::min(most, DynamicGrouping::steps_until_due(its_->steps));
+  std::int64_t count = 1;
+  while (count < most &&
+         its_->plan.step(its_->steps - its_->plan_from + count) == its_->stepping.step)
+    ++count;
+  return count;
+}
+
+void Simulation::make_steps(std::int64_t count) {
+  its_->moments.resize(static_cast<std::size_t>(count));
+  for (std::int64_t k = 0; k < count; ++k) {
+    TimedPose& moment = its_->moments[static_cast<std::size_t>(k)];
+    moment.time = its_->plan_since + its_->plan.time(its_->steps - its_->plan_from + k);
+    moment.pose = its_->cursor.at(moment.time);
+  }
+  its_->sums.clear();
+  its_->stepper->advance(its_->moments, its_->sums);
+  for (StepSums& one : its_->sums) {
+    if (one.failure) {
+      its_->offenders = std::move(one.failure->all);
+      fail();
+    }
+    add(one);
+  }
+}
+
+void Simulation::add(const StepSums& sums) {
+  its_->ledger.add_step(sums.power, sums.lost);
+  its_->world_ledger.add_step(sums.world_power, 0);
+  if (its_->steps == 0) its_->held_at_start = sums.held_kinetic;
+  ++its_->steps;
+}
+
+void Simulation::relax_once() {
+  its_->relaxation->begin_iteration();
+  switch (its_->relaxation->iterate(*its_->stepper, moment(), its_->offenders)) {
+    case Relaxation::Outcome::moved:
+      ++its_->steps;
+      break;
+    case Relaxation::Outcome::shortened:
+      set_step(its_->relaxation->step());
+      break;
+    case Relaxation::Outcome::failed:
+      fail();
+    case Relaxation::Outcome::at_rest:
+      break;
+  }
+}
+
+/// The present one, as the stepper is told: bones of what relaxes stand still.
+const TimedPose& Simulation::moment() const {
+  its_->moments.resize(std::max<std::size_t>(its_->moments.size(), 1));
+  TimedPose& now = its_->moments.front();
+  now.time = time();
+  now.pose = pose();
+  if (its_->relaxation) stop(now.pose);
+  return now;
+}
+
+// Groups that change as the body moves.
+
+double Simulation::lost_by_merging() const {
+  return its_->dynamic ? its_->dynamic->state().lost : 0;
+}
+std::int64_t Simulation::regroupings() const {
+  return its_->dynamic ? its_->dynamic->state().times : 0;
+}
+
+void Simulation::group_as_it_moves(const DynamicOptions& options) {
+  if (!its_->stepper->has_groups())
+    throw bad_input("the paper's cells have no groups", "search neighbors by lists");
+  check_groupable(*its_->body);
+  move_in(make_grouping(*its_->body, std::vector<std::int32_t>(its_->body->rest.size(), -1)));
+  its_->dynamic =
+      std::make_unique<DynamicGrouping>(its_->body, *its_->motion, its_->particles.mass, options);
+  if (auto made = its_->dynamic->first({its_->steps, time(), its_->stepping.step}, particles()))
+    take(std::move(*made));
+}
+
+/// The particles go on in these groups, from where they are.
+void Simulation::move_in(Grouping grouping) {
+  its_->body->grouping = std::make_shared<const Grouping>(std::move(grouping));
+  its_->stepper->regroup();
+  its_->evaluated = false;
+  forget_read();
+}
+
+void Simulation::check_groups() {
+  if (!its_->dynamic || !DynamicGrouping::is_due(its_->steps)) return;
+  const auto now = [this]() -> const Particles& { return particles(); };
+  if (auto made =
+          its_->dynamic->changed(*its_->stepper, {its_->steps, time(), its_->stepping.step}, now))
+    take(std::move(*made));
+}
+
+void Simulation::take(NewGroups made) {
+  const double before = energies().stored();
+  move_in(its_->dynamic->grouping_of(made.group));
+  its_->dynamic->took(std::move(made), before - energies().stored());
 }
 
 /// The particles read last are obsolete, and take half as much memory as the state.
 void Simulation::forget_read() {
-  free_motion(particles_);
-  read_ = false;
+  free_motion(its_->particles);
+  its_->read = false;
 }
 
 void Simulation::fail() {
-  const Offender& worst = *std::max_element(offenders_.begin(), offenders_.end(), moved_less);
-  const std::int32_t id = particles_.id[worst.particle];
-  const auto bones = body_->binding.of(id);
+  const Offender& worst =
+      *std::max_element(its_->offenders.begin(), its_->offenders.end(), moved_less);
+  const std::int32_t id = its_->particles.id[worst.particle];
+  const auto bones = its_->body->binding.of(id);
   evaluate();
-  const std::string why =
-      cause_and_cure({*body_, pose(), time(), particles(), forces_, stepping_}, worst.particle);
+  const std::string why = cause_and_cure(
+      {*its_->body, pose(), time(), particles(), its_->forces, its_->stepping}, worst.particle);
   const std::string where =
-      bones.empty() ? "" : " on bone '" + body_->skeleton.bones[bones.front().bone].name + "'";
+      bones.empty() ? "" : " on bone '" + its_->body->skeleton.bones[bones.front().bone].name + "'";
   throw Error(
       Exit::unstable,
-      "step " + std::to_string(steps_) + " at " + three_digits(time()) + " s: particle " +
+      "step " + std::to_string(its_->steps) + " at " + three_digits(time()) + " s: particle " +
           std::to_string(id) + where +
           (worst.finite ? " moved over " + three_digits(most_radii_per_step) +
                               (bones.empty() ? " r relative to its previous motion in one step"
@@ -162,53 +387,49 @@ void Simulation::fail() {
 }
 
 const Particles& Simulation::particles() const {
-  if (!read_) {
-    const Pose& now = pose_of_stepper();
-    set_time();
-    std::visit([&](auto& stepper) { stepper.read(now, particles_); }, stepper_);
-    read_ = true;
+  if (!its_->read) {
+    its_->stepper->read(moment(), its_->particles);
+    its_->read = true;
   }
-  return particles_;
+  return its_->particles;
 }
 
 void Simulation::evaluate() {
-  if (evaluated_) return;
-  const Pose& now = pose_of_stepper();
-  set_time();
-  balance_ = std::visit([&](auto& stepper) { return stepper.evaluate(now, forces_); }, stepper_);
-  evaluated_ = true;
+  if (its_->evaluated) return;
+  its_->balance = its_->stepper->evaluate(moment(), its_->forces);
+  its_->evaluated = true;
 }
 
 const Forces& Simulation::forces() {
   evaluate();
-  return forces_;
+  return its_->forces;
 }
 
 Particles Simulation::take_particles() {
   particles();
   Particles taken;
-  taken.radius = particles_.radius;
-  taken.mass = particles_.mass;
-  taken.id = particles_.id;
+  taken.radius = its_->particles.radius;
+  taken.mass = its_->particles.mass;
+  taken.id = its_->particles.id;
   for (const auto axis :
        {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
-    taken.*axis = std::move(particles_.*axis);
+    taken.*axis = std::move(its_->particles.*axis);
   forget_read();
   return taken;
 }
 
 Forces Simulation::take_forces() {
   evaluate();
-  evaluated_ = false;
-  return std::exchange(forces_, {});
+  its_->evaluated = false;
+  return std::exchange(its_->forces, {});
 }
 
 void Simulation::reuse(Particles particles, Forces forces) {
-  if (!evaluated_) forces_ = std::move(forces);
-  if (read_) return;
+  if (!its_->evaluated) its_->forces = std::move(forces);
+  if (its_->read) return;
   for (const auto axis :
        {&Particles::x, &Particles::y, &Particles::z, &Particles::u, &Particles::v, &Particles::w})
-    particles_.*axis = std::move(particles.*axis);
+    its_->particles.*axis = std::move(particles.*axis);
 }
 
 Energies Simulation::energies() {
@@ -216,13 +437,13 @@ Energies Simulation::energies() {
   const Particles& now = particles();
   // Velocities are half a step behind the positions, except in velocity Verlet.
   const double behind =
-      stepping_.integrator == Integrator::velocity_verlet ? 0 : stepping_.step / 2;
+      its_->stepping.integrator == Integrator::velocity_verlet ? 0 : its_->stepping.step / 2;
   Energies energies;
   energies.kinetic =
       parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i) {
-          const Vec3 acceleration = forces_.total(i) / mass(i) + stepping_.gravity;
+          const Vec3 acceleration = its_->forces.total(i) / mass(i) + its_->stepping.gravity;
           sum += mass(i) / 2 * (now.velocity(i) + behind * acceleration).squaredNorm();
         }
         return sum;
@@ -231,71 +452,73 @@ Energies Simulation::energies() {
       parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i)
-          sum -= mass(i) * stepping_.gravity.dot(now.position(i));
+          sum -= mass(i) * its_->stepping.gravity.dot(now.position(i));
         return sum;
       });
-  energies.pair = balance_.pair_energy;
-  energies.bone = balance_.bone_energy;
-  energies.work_of_bones = ledger_.work_until(balance_.power);
-  energies.dissipation = ledger_.dissipation_until(balance_.lost) + regrouping_.lost;
-  energies.contact = balance_.contact_energy;
-  if (relaxation_) {  // no moment follows from the one before by a motion
+  energies.pair = its_->balance.pair_energy;
+  energies.bone = its_->balance.bone_energy;
+  energies.work_of_bones = its_->ledger.work_until(its_->balance.power);
+  energies.dissipation = its_->ledger.dissipation_until(its_->balance.lost) + lost_by_merging();
+  energies.contact = its_->balance.contact_energy;
+  if (its_->relaxation) {  // no moment follows from the one before by a motion
     energies.work_of_bones = energies.work_of_world = energies.dissipation =
         std::numeric_limits<double>::quiet_NaN();
     return energies;
   }
   // Held particles move as prescribed: pins and supports supply their kinetic energy.
-  energies.work_of_world = world_ledger_.work_until(balance_.world_power) + balance_.held_kinetic -
-                           (steps_ == 0 ? balance_.held_kinetic : held_at_start_);
+  energies.work_of_world = its_->world_ledger.work_until(its_->balance.world_power) +
+                           its_->balance.held_kinetic -
+                           (its_->steps == 0 ? its_->balance.held_kinetic : its_->held_at_start);
   return energies;
 }
 
-std::vector<std::int32_t> Simulation::broken_bonds() const {
-  return std::visit([](const auto& stepper) { return stepper.broken_bonds(); }, stepper_);
-}
+std::vector<std::int32_t> Simulation::broken_bonds() const { return its_->stepper->broken_bonds(); }
 
 std::vector<double> Simulation::rest_of_bonds(const NeighborLists& nearest,
                                               const NeighborLists& second) const {
   BondRest rest(nearest, second);
-  std::visit([&](const auto& stepper) { stepper.read(rest); }, stepper_);
+  its_->stepper->read(rest);
   return rest.take();
 }
 
 std::vector<Reaction> Simulation::reactions_of_obstacles() {
   evaluate();
-  return std::visit([](const auto& stepper) { return stepper.reactions_of_obstacles(); }, stepper_);
+  return its_->stepper->reactions().obstacles;
 }
 
 std::vector<Reaction> Simulation::of_supports() {
   evaluate();
-  return std::visit([](const auto& stepper) { return stepper.of_supports(); }, stepper_);
+  return its_->stepper->reactions().supports;
 }
 
 std::vector<Reaction> Simulation::of_loads() {
   evaluate();
-  return std::visit([](const auto& stepper) { return stepper.of_loads(); }, stepper_);
+  return its_->stepper->reactions().loads;
 }
 
 BoneReactions Simulation::reactions_of_bones() {
   evaluate();
   BoneReactions on;
-  on.springs = reactions(particles(), forces_.bone, *body_, pose());
-  on.pins = std::visit([](const auto& stepper) { return stepper.reactions_of_pins(); }, stepper_);
-  if (body_->world)
+  on.springs = reactions(particles(), its_->forces.bone, *its_->body, pose());
+  WorldReactions others = its_->stepper->reactions();
+  on.pins = std::move(others.pins);
+  if (its_->body->world)
     on.obstacles =
-        reactions_through_obstacles(*body_->world, reactions_of_obstacles(), time(), pose());
+        reactions_through_obstacles(*its_->body->world, others.obstacles, time(), pose());
   return on;
 }
 
 SimulationState Simulation::save() const {
   SimulationState state;
-  std::visit([&](auto& stepper) { stepper.save(state); }, stepper_);
-  state.steps = steps_;
-  state.ledger = ledger_.entries();
-  state.world_ledger = world_ledger_.entries();
-  state.held_at_start = held_at_start_;
-  if (relaxation_) state.relaxation = relaxation_->state();
-  if (dynamic_) state.grouping = body_->grouping->group, state.regrouping = regrouping_;
+  its_->stepper->save(state);
+  state.steps = its_->steps;
+  if (its_->plan.is_even()) state.even = {its_->plan_from, its_->plan_since, its_->plan.step(0)};
+  state.ledger = its_->ledger.entries();
+  state.world_ledger = its_->world_ledger.entries();
+  state.held_at_start = its_->held_at_start;
+  if (its_->relaxation) state.relaxation = its_->relaxation->state();
+  if (its_->dynamic)
+    state.grouping = its_->body->grouping->group, state.regrouping = its_->dynamic->state();
   return state;
 }
 
@@ -304,29 +527,29 @@ void Simulation::restore(const SimulationState& state) {
   if (!is_finite(state.ledger) || !is_finite(state.world_ledger) ||
       !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
-  if (relaxation_) relaxation_->restore(state.relaxation);
-  if (dynamic_) restore_grouping(state);
+  if (its_->relaxation) its_->relaxation->restore(state.relaxation);
+  if (its_->dynamic) {
+    Grouping grouping = its_->dynamic->grouping_of(state.grouping);
+    its_->dynamic->restore(state.regrouping);
+    its_->body->grouping = std::make_shared<const Grouping>(std::move(grouping));
+  }
+  if (its_->plan.is_even() && state.even.step > 0) its_->plan = StepPlan(state.even.step);
+  its_->plan_from = state.even.from;
+  its_->plan_since = state.even.since;
   const double last =
-      relaxation_ ? relaxation_->step() : plan_.step(std::max<std::int64_t>(0, state.steps - 1));
+      its_->relaxation
+          ? its_->relaxation->step()
+          : its_->plan.step(std::max<std::int64_t>(0, state.steps - its_->plan_from - 1));
   set_step(last);
-  std::visit([&](auto& stepper) { stepper.restore(state); }, stepper_);
-  steps_ = state.steps;
-  ledger_.restore(state.ledger, last);
-  world_ledger_.restore(state.world_ledger, last);
-  held_at_start_ = state.held_at_start;
-  evaluated_ = false;
+  its_->stepper->restore(state);
+  its_->steps = state.steps;
+  its_->ledger.restore(state.ledger, last);
+  its_->world_ledger.restore(state.world_ledger, last);
+  its_->held_at_start = state.held_at_start;
+  its_->evaluated = false;
   forget_read();
 }
 
-ListCounts Simulation::list_counts() const {
-  return std::visit(
-      [](const auto& stepper) {
-        if constexpr (requires { stepper.counts(); })
-          return stepper.counts();
-        else
-          return ListCounts{};
-      },
-      stepper_);
-}
+ListCounts Simulation::list_counts() const { return its_->stepper->counts(); }
 
 }  // namespace sinew

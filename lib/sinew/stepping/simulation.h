@@ -8,29 +8,33 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
-#include <span>
-#include <variant>
 #include <vector>
 
-#include <sinew/body/body.h>
 #include <sinew/body/forces.h>
-#include <sinew/body/ledger.h>
-#include <sinew/body/step_plan.h>
-#include <sinew/core/options.h>
-#include <sinew/core/particles.h>
 #include <sinew/core/simulation_state.h>
-#include <sinew/groups/dynamic/dynamic_groups.h>
-#include <sinew/lists/list_counts.h>
-#include <sinew/rig/motion.h>
-#include <sinew/rig/pose.h>
-#include <sinew/stepping/cell_stepper.h>
-#include <sinew/stepping/list_stepper.h>
-#include <sinew/stepping/relaxation.h>
-#include <sinew/stepping/stepper.h>
+#include <sinew/kernel/instruction_set.h>
 
 namespace sinew {
+
+class Relaxation;
+class StepPlan;
+class Stepper;
+struct DynamicOptions;
+struct ListCounts;
+struct LoadSteps;
+struct Motion;
+struct NeighborLists;
+struct NewGroups;
+struct Offender;
+struct StepSums;
+struct Stepping;
+struct TimedPose;
+
+/// Makes the stepper of a body. It may take the motion out of the particles to spare memory.
+using MakeStepper = std::function<std::unique_ptr<Stepper>(std::shared_ptr<const Body> body,
+                                                           const Stepping&, Particles& particles)>;
 
 class Simulation {
  public:
@@ -39,6 +43,12 @@ class Simulation {
   /// is not finite.
   Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
              kernel::InstructionSet instructions = kernel::best_instruction_set());
+  /// The same with a stepper of one's own.
+  Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
+             MakeStepper make);
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
 
   /// From the start on, steps are of the sizes in the plan. Call it before the first step.
   void follow(StepPlan plan);
@@ -48,32 +58,41 @@ class Simulation {
   /// Throws bad input for the reference stepper.
   void relax(LoadSteps steps);
   /// What it has come to; none where it was not asked to.
-  const Relaxation* relaxation() const { return relaxation_ ? &*relaxation_ : nullptr; }
+  const Relaxation* relaxation() const;
 
   /// From now on, groups of particles change as the body moves. Throws bad input for the reference
   /// stepper.
   void group_as_it_moves(const DynamicOptions& options);
   /// Lost where particles joined groups, J; part of the dissipation.
-  double lost_by_merging() const { return regrouping_.lost; }
-  std::int64_t regroupings() const { return regrouping_.times; }
+  double lost_by_merging() const;
+  std::int64_t regroupings() const;
 
   /// From now on the bones move so; at the present moment the pose should be the same. Throws bad
   /// input where there are groups of particles, static or dynamic: they are made for one motion.
   void play(Motion motion);
 
-  /// Advances by one step. Throws Error (unstable) that names step, particle, cause and a cure when
-  /// a value is not finite or a particle moves over 0.25 r relative to its bone in the step (one
-  /// without a bone: relative to its previous motion). The particles stay where they were before
-  /// the step; bonds that broke in it stay broken.
-  void step();
+  /// From now on steps are of this size, s, which is below the limit. Throws bad input where they
+  /// follow a plan or are iterations, and for a size that is not positive.
+  void set_time_step(double step);
+  /// From now on the body is of this material, a variant of its own: particles, bonds and what has
+  /// become of them stay. Throws bad input for another model, size or mass of particles, other
+  /// neighbors at rest, and where there are groups of particles.
+  void set_material(const Material& material);
+
+  /// Advances by one step, or so many, between which nothing is read. Throws Error (unstable) that
+  /// names step, particle, cause and a cure when a value is not finite or a particle moves over
+  /// 0.25 r relative to its bone in the step (one without a bone: relative to its previous motion).
+  /// The particles stay where they were before the step; bonds that broke in it stay broken.
+  void step() { advance(1); }
+  void advance(std::int64_t steps);
   /// Of the step that failed, in the order of the particles.
-  const std::vector<Offender>& offenders() const { return offenders_; }
+  const std::vector<Offender>& offenders() const;
 
   double time() const;  ///< s
-  std::int64_t steps() const { return steps_; }
-  const Body& body() const { return *body_; }
+  std::int64_t steps() const;
+  const Body& body() const;
   const Particles& particles() const;
-  const Pose& pose() const { return cursor_.at(time()); }  ///< until the next step
+  const Pose& pose() const;  ///< until the next step
 
   /// At the present moment.
   const Forces& forces();
@@ -108,58 +127,32 @@ class Simulation {
 
   /// The state from which a simulation continues with the same bits, on any number of threads.
   SimulationState save() const;
-  /// Continues from that moment of a simulation of the same body, motion and stepping. Throws bad
-  /// input for a state that does not fit.
+  /// Continues from that moment of a simulation of the same body and stepping; the motion may be
+  /// another. Throws bad input for a state that does not fit.
   void restore(const SimulationState& state);
 
   /// How often neighbor lists were built; zeros for the cell stepper.
   ListCounts list_counts() const;
 
  private:
-  using Stepper = std::variant<CellStepper, ListStepper<double>, ListStepper<float>>;
+  struct Parts;
 
-  static Stepper make_stepper(const std::shared_ptr<const Body>& body, const Stepping& stepping,
-                              Particles& particles, kernel::InstructionSet instructions);
   void evaluate();
-  double mass(std::size_t i) const {
-    return mass_of(*body_, static_cast<std::size_t>(particles_.id[i]), particles_.mass);
-  }
+  double mass(std::size_t i) const;
+  std::int64_t steps_of_one_size(std::int64_t most) const;
+  void make_steps(std::int64_t count);
+  void add(const StepSums& sums);
   void relax_once();
-  GroupingMoment grouping_moment() const;
   void check_groups();
-  void regroup(std::span<const HeldCell> held, bool must);
-  void set_grouping(std::vector<std::int32_t> group);
-  void restore_grouping(const SimulationState& state);
-  void move_in(std::vector<std::int32_t> group);
-  void halt();
-  const Pose& pose_of_stepper() const;
+  void take(NewGroups made);
+  void move_in(Grouping grouping);
+  const TimedPose& moment() const;
   void forget_read();
-  void set_time() const;
   void set_step(double step);
   void change_step(double step);
   [[noreturn]] void fail();  ///< because of the worst of the offenders
 
-  std::shared_ptr<Body> body_;  ///< whose grouping may change
-  std::shared_ptr<const Motion> motion_;
-  mutable PoseCursor cursor_;
-  Stepping stepping_;  ///< with the step made last
-  StepPlan plan_;
-  std::optional<Relaxation> relaxation_;
-  std::optional<DynamicGroups> dynamic_;
-  RegroupingState regrouping_;
-  mutable Pose still_;   ///< the pose without its velocities
-  double unit_of_time_;  ///< of velocities in single precision, s
-  std::int64_t steps_ = 0;
-  mutable Stepper stepper_;
-  EnergyLedger ledger_, world_ledger_;
-  double held_at_start_ = 0;  ///< kinetic energy of what pins hold, J
-
-  std::vector<Offender> offenders_;
-  mutable Particles particles_;  ///< as read last; radius, mass and ids are always valid
-  mutable bool read_ = false;    ///< whether they are those of the present moment
-  Forces forces_;
-  Balance balance_;
-  bool evaluated_ = false;
+  std::unique_ptr<Parts> its_;
 };
 
 }  // namespace sinew

@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every stepper offers to Simulation: see lists/list_stepper.h and reference/cell_stepper.h.
+// What every stepper offers to Simulation, which calls it once for a batch of steps. A stepper has
+// the state of the particles, in whatever order and units it likes, and takes all that acts on them
+// as data: the body, its world, and the poses of its bones at the moments of the steps. The list
+// stepper (list_stepper.h) is the fast one, the cells (cell_stepper.h) the readable one.
 //
-//     const StepSums sums = stepper.step(pose);
-//     ledger.add_step(sums.power, sums.lost);
+//     stepper.advance(moments, sums);        // so many steps, nothing is read between them
+//     for (const StepSums& one : sums) ledger.add_step(one.power, one.lost);
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include <sinew/body/forces.h>
+#include <sinew/body/grouping.h>
+#include <sinew/core/simulation_state.h>
+#include <sinew/lists/list_counts.h>
+#include <sinew/rig/pose.h>
+
 namespace sinew {
+
+class BondRest;
+struct Stepping;
 
 /// A particle whose motion in a step is invalid, by its place in the caller's order.
 struct Offender {
@@ -53,6 +67,74 @@ struct Balance {
   double world_power = 0;                   ///< W
   double contact_energy = 0;                ///< in the springs of obstacles, J
   double held_kinetic = 0;                  ///< of particles that pins hold, J
+};
+
+/// A time (s) and the pose of the bones then.
+struct TimedPose {
+  double time = 0;
+  Pose pose;
+};
+
+/// What acts between the body and its world, one for each obstacle, bone, support and load of it;
+/// empty without a world.
+struct WorldReactions {
+  std::vector<Reaction> obstacles;        ///< of the body on each, about its frame
+  std::vector<Reaction> pins;             ///< of the body on each bone through pins, about its head
+  std::vector<Reaction> supports, loads;  ///< of each on the body, about its pivot
+};
+
+class Stepper {
+ public:
+  Stepper() = default;
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+  virtual ~Stepper() = default;
+
+  /// Makes steps that begin at these moments, one after another, and adds the contributions of each
+  /// to `sums`. Ends with a step that fails, in which no particle moves; bonds that broke in it
+  /// stay broken.
+  virtual void advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) = 0;
+  /// Of the steps that follow, s; velocities stay as they are.
+  virtual void set_step(double step) = 0;
+
+  // What is asked for at a moment that no step has left behind.
+
+  /// Fills the forces in the caller's order.
+  virtual Balance evaluate(const TimedPose& now, Forces& forces) = 0;
+  /// Positions and velocities, in the caller's order. What pins hold is where they hold it then.
+  virtual void read(const TimedPose& now, Particles& particles) = 0;
+  /// As evaluated last.
+  virtual WorldReactions reactions() const { return {}; }
+  /// By particle in the caller's order; none where the material has no bonds.
+  virtual std::vector<std::int32_t> broken_bonds() const { return {}; }
+  virtual void read(BondRest&) const {}
+  virtual ListCounts counts() const { return {}; }
+
+  /// All that steps change, to the last bit; restore() throws bad input for what does not fit.
+  virtual void save(SimulationState& state) = 0;
+  virtual void restore(const SimulationState& state) = 0;
+
+  // Steps that bring a body to rest, of steppers that have them.
+
+  virtual bool relaxes() const { return false; }
+  /// Velocities keep that share of themselves, and gain accordingly less. Moves nothing yet:
+  /// accept() does.
+  virtual StepSums try_step(const TimedPose&, double) { return {}; }
+  virtual void accept() {}
+  virtual void halt() {}  ///< all velocities become 0
+
+  // Groups of particles that move as one, of steppers that have them.
+
+  virtual bool has_groups() const { return false; }
+  /// After the body's grouping has changed: groups move as their particles do, as nearly as they
+  /// can.
+  virtual void regroup() {}
+  /// The same without a change of the grouping: velocities have changed.
+  virtual void fit_groups() {}
+  /// By cell of the body (`cell`: of each particle, by id), after a step.
+  virtual std::vector<HeldCell> held(std::span<const std::int32_t>, std::size_t) const {
+    return {};
+  }
 };
 
 }  // namespace sinew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/stepping/relaxation.h>
+#include <sinew/stepping/equilibrium.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +26,14 @@ ObstacleMotion standing(const ObstacleMotion& motion) {
   return [motion](double time, const Pose& pose) {
     return ObstaclePose{motion(time, pose).frame, Vec3::Zero(), Vec3::Zero()};
   };
+}
+
+/// What rounding leaves of the forces on all particles, N: in units of positions.
+double noise_of(const Body& body, double unit) {
+  constexpr double each = 10;  // of a particle's bonds together, measured at rest
+  double relative = body.stiffness.empty() ? static_cast<double>(body.rest.size()) : 0;
+  for (const double stiffness : body.stiffness) relative += stiffness;
+  return each * relative * body.material.stiffness() * unit;
 }
 
 }  // namespace
@@ -171,6 +179,42 @@ void Relaxation::restore(const RelaxationState& state) {
   if (!counted || !known || !(state.shortened > 0 && state.shortened <= 1))
     throw not_a_state("its way to rest is none");
   now_ = state;
+}
+
+Relaxation::Outcome Relaxation::iterate(Stepper& stepper, const TimedPose& still,
+                                        std::vector<Offender>& offenders) {
+  StepSums sums = stepper.try_step(still, keep());
+  if (sums.failure) {
+    offenders = std::move(sums.failure->all);
+    stepper.halt();
+    return shorten() ? Outcome::shortened : Outcome::failed;
+  }
+  if (take(sums)) {
+    stepper.halt();
+    return Outcome::at_rest;
+  }
+  stepper.accept();
+  return Outcome::moved;
+}
+
+void stop(Pose& pose) {
+  for (BonePose& bone : pose) {
+    bone.velocity = bone.angular_velocity = Vec3::Zero();
+    bone.stretch_rate = 0;
+  }
+}
+
+Relaxation::Iteration relaxation_of(const Body& body, Stepper& stepper, double step) {
+  if (!stepper.relaxes() || body.grouping)
+    throw bad_input("the reference stepper and groups relax nothing",
+                    "search neighbors by lists, and leave all particles free");
+  SimulationState state;
+  stepper.save(state);
+  const double extent = bounds(body.rest).diagonal().norm();
+  const double unit = std::holds_alternative<MovingInSingle>(state.moving)
+                          ? state.whole_numbers.length
+                          : extent * std::numeric_limits<double>::epsilon();
+  return {step, noise_of(body, unit), body.material.pair.r};
 }
 
 }  // namespace sinew

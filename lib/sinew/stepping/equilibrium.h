@@ -5,10 +5,10 @@
 // Rayleigh quotient of the motion, -v.(a_n - a_(n-1)) / (h v.v). (Underwood, Dynamic relaxation,
 // in: Computational Methods for Transient Analysis, 1983; Papadrakakis, 1981.)
 //
-//     Relaxation relaxation(load_steps, step, noise);
+//     Relaxation relaxation(load_steps, relaxation_of(body, stepper, step));
 //     while (!relaxation.done()) {
-//       const StepSums sums = stepper.try_step(pose_at(relaxation.time()), relaxation.keep());
-//       if (!relaxation.take(sums)) stepper.accept();
+//       relaxation.begin_iteration();
+//       relaxation.iterate(stepper, moment_at(relaxation.time()), offenders);
 //     }
 #pragma once
 
@@ -49,6 +49,9 @@ struct Equilibrium {
   double residual = 0;
 };
 
+/// The pose without its velocities: what relaxes stands still, and so do its bones.
+void stop(Pose& pose);
+
 class Relaxation {
  public:
   struct Iteration {
@@ -72,6 +75,13 @@ class Relaxation {
   /// Forces that nothing answered in the last iteration over the largest applied; 0 where nothing
   /// but rounding acts.
   double residual() const;
+
+  /// What became of an iteration.
+  enum class Outcome { moved, at_rest, shortened, failed };
+  /// A step of the stepper, whose bones stand still at the moment. Where it is rejected, the
+  /// particles in `offenders`, and a shorter step unless it is too short already. Throws what
+  /// take() throws.
+  Outcome iterate(Stepper& stepper, const TimedPose& still, std::vector<Offender>& offenders);
 
   /// Takes what the step found. Whether the body is at rest where it began: the step must not be
   /// accepted then. Throws Error (unstable) that says why the residual cannot be reached, or has
@@ -99,5 +109,9 @@ class Relaxation {
   RelaxationState now_;
   Equilibrium last_;
 };
+
+/// The iterations of a stepper of the body, with steps of that size (s). Throws bad input for a
+/// stepper that relaxes nothing.
+Relaxation::Iteration relaxation_of(const Body& body, Stepper& stepper, double step);
 
 }  // namespace sinew

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies brought to rest: in equilibrium with what loads and holds them, as a motion that is damped
 // comes to be, and the same bits however a relaxation is run.
-#include <sinew/stepping/relaxation.h>
+#include <sinew/stepping/equilibrium.h>
 
 #include <functional>
 #include <limits>
@@ -13,7 +13,7 @@
 #include "support/expect_error.h"
 #include "support/machine.h"
 
-namespace sinew::relaxation_test {
+namespace sinew::equilibrium_test {
 
 using namespace machine;
 using enum MaterialModel;
@@ -239,4 +239,4 @@ TEST(Relaxation, FlowEndsAtTheYieldStress) {
   EXPECT_LT(flowing.of_supports()[1].force.z(), 0.5 * elastic.of_supports()[1].force.z());
 }
 
-}  // namespace sinew::relaxation_test
+}  // namespace sinew::equilibrium_test
