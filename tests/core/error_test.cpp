@@ -26,6 +26,11 @@ TEST(Error, NamesItsPlaceOnce) {
   EXPECT_STREQ(through.with_context({"b.yaml", 1}).what(), through.what());
 }
 
+TEST(Error, IsWholeWhateverNamesHold) {
+  const std::string name("run\0x", 5);
+  EXPECT_STREQ(bad_input({name}, "it is wrong", "right it").what(), "run?x: it is wrong; right it");
+}
+
 TEST(Place, LeavesOutWhatIsUnknown) {
   EXPECT_EQ((Place{"a.yaml", 3, 7}.text()), "a.yaml:3:7");
   EXPECT_EQ((Place{"a.yaml", 3, 0}.text()), "a.yaml:3");

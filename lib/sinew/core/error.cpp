@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/core/error.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace sinew {
+namespace {
+
+std::string without_nul(std::string text) {
+  std::replace(text.begin(), text.end(), '\0', '?');
+  return text;
+}
+
+}  // namespace
+
+Error::Error(Exit exit, const std::string& message)
+    : std::runtime_error(without_nul(message)), exit_(exit) {}
 
 std::string Place::text() const {
   std::string text = file;

@@ -32,7 +32,8 @@ struct Place {
 /// One line for the user: where, what is wrong, and what to do about it.
 class Error : public std::runtime_error {
  public:
-  Error(Exit exit, const std::string& message) : std::runtime_error(message), exit_(exit) {}
+  /// A NUL of the message, as names from damaged files may have, would end it: it becomes '?'.
+  Error(Exit exit, const std::string& message);
 
   Exit exit() const { return exit_; }
 
