@@ -20,12 +20,12 @@ target_compile_options(sinew_test_options INTERFACE -Wno-conversion)
 set(SINEW_INCLUDED_BY_ALL <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <filesystem> <functional> <map>
   <memory> <optional> <span> <string> <variant> <vector>)
 
-# sinew_library(ROOM [LIGHT] [OWN] SOURCES ... CGAL_SOURCES ... PUBLIC targets PRIVATE targets)
+# sinew_library(ROOM [LIGHT] [OWN] SOURCES ... CGAL_SOURCES ... PUBLIC targets PRIVATE targets HEADERS names)
 # LIGHT rooms prepare and report: they are compiled fast rather than optimized. OWN ones are for one of our
-# programs alone, and not installed. CGAL asks for -frounding-math:
+# programs alone, and not installed. Headers are installed but for those in detail/, or those in HEADERS alone. CGAL asks for -frounding-math:
 # only its own sources get that.
 function(sinew_library room)
-  cmake_parse_arguments(ARG "LIGHT;OWN" "" "SOURCES;CGAL_SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT;OWN" "" "SOURCES;CGAL_SOURCES;PUBLIC;PRIVATE;HEADERS" ${ARGN})
   add_library(sinew_${room} STATIC ${ARG_SOURCES})
   add_library(sinew::${room} ALIAS sinew_${room})
   set_target_properties(sinew_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON
@@ -69,8 +69,12 @@ function(sinew_library room)
   endif()
   install(TARGETS sinew_${room} EXPORT sinew ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     COMPONENT libsinew-dev)
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew/${room}
-    COMPONENT libsinew-dev FILES_MATCHING PATTERN "*.h")
+  if(ARG_HEADERS)
+    install(FILES ${ARG_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew/${room} COMPONENT libsinew-dev)
+  else()
+    install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew/${room}
+      COMPONENT libsinew-dev FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)
+  endif()
 endfunction()
 
 # sinew_umbrella(ROOMS): sinew::sinew, which brings all of them, with <sinew/sinew.h>.

@@ -26,13 +26,16 @@ ARROWS = {
             "metrics", "render"},
     "study": {"core", "settings", "mesh", "io", "scene", "metrics", "run"},
 }
+# Rooms whose headers are not installed -> those that are.
+INTERNAL = {"kernel": ("instruction_set.h",), "lists": ("list_counts.h",), "lammps": (),
+            "groups": ("bone_parts.h", "kept_free.h", "make_grouping.h", "static_groups.h")}
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
     r"(CGAL|boost)/": ("mesh", "fill"),
     r"vtk\w*\.h": ("render",),
     r"yaml-cpp/": ("settings",),
     r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),
-    r"nlohmann/json\.hpp": ("io", "metrics", "scene", "run", "study", "run/run_log.h"),
+    r"nlohmann/json\.hpp": ("io", "metrics", "scene", "run", "study", "run/detail/run_log.h"),
     r"(libdeflate|lz4|expat)\.h": ("io",),
     r"X11/": ("render",),
     r"(lammps|fmt)/": ("lammps", "lammps/lammps_headers.h"),
@@ -77,6 +80,32 @@ GIVEN_UP = {
 }
 
 
+def is_installed(name):
+    """Whether others get a header, by its name in lib/sinew: see sinew_library in lib/targets.cmake."""
+    room, _, file = name.partition("/")
+    return "detail" not in name.split("/") and (room not in INTERNAL or file in INTERNAL[room])
+
+
+def folder_of(name):
+    """What counts as the folder of a file: `detail` is part of the one that has it."""
+    folders = name.split("/")[:-1]
+    return "/".join(folders[:folders.index("detail")] if "detail" in folders else folders)
+
+
+def circle_breaches(lib):
+    seen = {}
+    for path in sorted(lib.rglob("*")):
+        if path.suffix in (".h", ".cpp"):
+            name = path.relative_to(lib).as_posix()
+            for _, included in INCLUDE.findall(path.read_text()):
+                if included.startswith("sinew/"):
+                    seen.setdefault((folder_of(name), folder_of(included[6:])), (name, included))
+    for (one, other), (name, included) in sorted(seen.items()):
+        if one < other and (other, one) in seen:
+            yield "lib/sinew/{} includes {}, and {} includes {}: {} and {} are one".format(
+                name, included, *seen[other, one], one or "lib", other or "lib")
+
+
 def include_breaches(lib, path):
     name, room = path.relative_to(lib).as_posix(), path.relative_to(lib).parts[0]
     for kind, included in INCLUDE.findall(path.read_text()):
@@ -87,6 +116,10 @@ def include_breaches(lib, path):
             yield f"lib/sinew/{name} includes <{included}>, which is no file of lib"
         elif owner and owner not in ARROWS[room] | {room}:
             yield f"lib/sinew/{name} includes {included}: {room} must not see {owner}"
+        elif owner not in ("", room) and "detail" in included.split("/"):
+            yield f"lib/sinew/{name} includes {included}, which {owner} has for itself"
+        elif path.suffix == ".h" and owner and is_installed(name) and not is_installed(included[6:]):
+            yield f"lib/sinew/{name}, which is installed, includes {included}, which is not"
         for pattern, places in HEAVY.items():
             if not re.match(pattern, included):
                 continue
@@ -244,6 +277,7 @@ def breaches(source):
         for path in sorted((lib / room).rglob("*")):
             if path.suffix in (".h", ".cpp", ".in"):
                 yield from include_breaches(lib, path)
+    yield from circle_breaches(lib)
     for path in product_files(source):
         yield from place_breaches(source, path)
     for path in source_files(source):

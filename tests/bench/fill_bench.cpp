@@ -11,9 +11,9 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
-#include <sinew/fill/detail/inside_runs.h>
+#include <sinew/fill/detail/verify.h>
 #include <sinew/fill/filled_sites.h>
-#include <sinew/fill/verify.h>
+#include <sinew/fill/inside_runs.h>
 #include <sinew/mesh/clean.h>
 
 #include "bench/vtk_inside.h"

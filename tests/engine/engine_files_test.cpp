@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include <sinew/core/file.h>
+#include <sinew/engine/detail/walks.h>
 #include <sinew/engine/engine_files.h>
 #include <sinew/engine/engine_talk.h>
 #include <sinew/engine/engine_world.h>
-#include <sinew/engine/walks.h>
 #include "support/world.h"
 
 namespace sinew::engine_files_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/fill/detail/inside_runs.h>
+#include <sinew/fill/inside_runs.h>
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/fill/detail/verify.h>
 #include <sinew/fill/filled_sites.h>
-#include <sinew/fill/verify.h>
 #include <sinew/mesh/clean.h>
 #include "mesh/shapes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/fill/near_surface.h>
+#include <sinew/fill/detail/near_surface.h>
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <sinew/core/hash.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/fill/detail/verify.h>
 #include <sinew/fill/lattice.h>
-#include <sinew/fill/verify.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/read_surface.h>
 #include "mesh/mesh_files.h"

@@ -9,9 +9,9 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
+#include <sinew/fill/detail/isotropy.h>
 #include <sinew/fill/detail/relax.h>
 #include <sinew/fill/fill_limits.h>
-#include <sinew/fill/isotropy.h>
 #include <sinew/fill/pack.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/surface_distance.h>

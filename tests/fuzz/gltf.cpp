@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/gltf/detail/materials.h>
 #include <sinew/io/gltf/geometry.h>
 #include <sinew/io/gltf/look.h>
-#include <sinew/io/gltf/materials.h>
 #include <sinew/io/gltf/rig.h>
 #include "sound_mesh.h"
 

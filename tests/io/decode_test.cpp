@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/decode.h>
+#include <sinew/io/detail/decode.h>
 
 #include <cstring>
 #include <random>
@@ -8,7 +8,7 @@
 
 #include <sinew/core/base64.h>
 #include <sinew/core/parallel.h>
-#include <sinew/io/encode.h>
+#include <sinew/io/detail/encode.h>
 #include "element_text.h"
 
 namespace sinew::decode_test {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <sinew/core/base64.h>
-#include <sinew/io/encode.h>
+#include <sinew/io/detail/encode.h>
 
 namespace sinew {
 

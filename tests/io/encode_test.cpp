@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/encode.h>
+#include <sinew/io/detail/encode.h>
 
 #include <cmath>
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include <sinew/io/detail/xml.h>
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>
-#include <sinew/io/xml.h>
 #include "support/expect_error.h"
 #include "support/scratch.h"
 #include "synthetic_run.h"

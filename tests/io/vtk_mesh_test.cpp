@@ -8,7 +8,7 @@
 #include <random>
 
 #include <sinew/core/triangles.h>
-#include <sinew/io/vtk/grids.h>
+#include <sinew/io/vtk/detail/grids.h>
 #include "support/expect_error.h"
 #include "support/scratch.h"
 

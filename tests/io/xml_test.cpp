@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/xml.h>
+#include <sinew/io/detail/xml.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/metrics/surface_distortion.h>
+#include <sinew/metrics/detail/surface_distortion.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/render/figure.h>
 
-#include <sinew/render/tripod.h>
+#include <sinew/render/detail/tripod.h>
 
 #include "helpers.h"
 #include "synthetic_run.h"

@@ -2,7 +2,7 @@
 #include <sinew/render/image.h>
 
 #include <sinew/core/file.h>
-#include <sinew/render/text.h>
+#include <sinew/render/detail/text.h>
 #include "helpers.h"
 
 namespace sinew::image_test {

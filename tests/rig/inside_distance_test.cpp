@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/rig/inside_distance.h>
+#include <sinew/rig/detail/inside_distance.h>
 
 #include <gtest/gtest.h>
 

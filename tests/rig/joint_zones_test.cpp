@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/rig/joint_zones.h>
+#include <sinew/rig/detail/joint_zones.h>
 
 #include <gtest/gtest.h>
 #include <random>

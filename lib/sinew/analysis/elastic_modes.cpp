@@ -7,8 +7,8 @@
 #include <complex>
 #include <vector>
 
-#include <sinew/analysis/free_body.h>
-#include <sinew/analysis/nearly_solved.h>
+#include <sinew/analysis/detail/free_body.h>
+#include <sinew/analysis/detail/nearly_solved.h>
 #include <sinew/body/bond_factors.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/union_find.h>

@@ -9,8 +9,8 @@
 #include <sinew/body/volume_weights.h>
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
+#include <sinew/engine/detail/walks.h>
 #include <sinew/engine/engine_world.h>
-#include <sinew/engine/walks.h>
 #include <sinew/material/laws.h>
 
 namespace sinew {

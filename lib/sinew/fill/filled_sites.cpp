@@ -7,8 +7,8 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/union_find.h>
+#include <sinew/fill/detail/near_surface.h>
 #include <sinew/fill/fill_limits.h>
-#include <sinew/fill/near_surface.h>
 #include <sinew/fill/runs.h>
 
 namespace sinew {

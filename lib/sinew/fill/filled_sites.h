@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <sinew/core/parallel.h>
-#include <sinew/fill/detail/inside_runs.h>
+#include <sinew/fill/inside_runs.h>
 #include <sinew/fill/lattice.h>
 #include <sinew/fill/pack.h>
 

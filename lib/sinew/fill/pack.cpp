@@ -9,13 +9,13 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/fill/detail/irregular.h>
+#include <sinew/fill/detail/isotropy.h>
+#include <sinew/fill/detail/owners.h>
+#include <sinew/fill/detail/shares.h>
+#include <sinew/fill/detail/verify.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/fill_warnings.h>
 #include <sinew/fill/filled_sites.h>
-#include <sinew/fill/isotropy.h>
-#include <sinew/fill/owners.h>
-#include <sinew/fill/shares.h>
-#include <sinew/fill/verify.h>
 
 namespace sinew {
 namespace {

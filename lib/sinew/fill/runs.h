@@ -12,8 +12,8 @@
 #include <numbers>
 #include <vector>
 
-#include <sinew/fill/detail/row_crossings.h>
 #include <sinew/fill/lattice.h>
+#include <sinew/fill/row_crossings.h>
 
 namespace sinew {
 

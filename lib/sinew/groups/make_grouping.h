@@ -47,6 +47,14 @@ struct GroupSizes {
   std::size_t cubic_from() const { return cubic_distance ? least_cubic : none_cubic; }
 };
 
+/// Groups that change as the body moves.
+struct DynamicOptions {
+  GroupSizes sizes;
+  /// In radii. What joins a group is moved by less (root mean square, half as much where it was
+  /// free); what leaves it would be, by the forces that hold it there.
+  double tolerance = 0.15;
+};
+
 /// The stretches of a group between which forces act between those particles alone that the layers
 /// take for neighbors, and between all of them. Cubic groups know second neighbors that touch.
 struct StretchRange {

@@ -11,7 +11,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/io/xml.h>
+#include <sinew/io/detail/xml.h>
 
 namespace sinew {
 

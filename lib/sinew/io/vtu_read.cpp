@@ -5,9 +5,9 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/io/vtk_xml.h>
+#include <sinew/io/detail/vtk_xml.h>
+#include <sinew/io/detail/vtu_array.h>
 #include <sinew/io/vtu.h>
-#include <sinew/io/vtu_array.h>
 
 namespace sinew {
 namespace {

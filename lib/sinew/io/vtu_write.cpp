@@ -11,9 +11,9 @@
 #include <sinew/core/file.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
-#include <sinew/io/encode.h>
+#include <sinew/io/detail/encode.h>
+#include <sinew/io/detail/xml.h>
 #include <sinew/io/vtu.h>
-#include <sinew/io/xml.h>
 
 namespace sinew {
 namespace {

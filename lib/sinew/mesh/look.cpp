@@ -10,7 +10,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/text.h>
-#include <sinew/mesh/readers/mesh_readers.h>
+#include <sinew/mesh/detail/readers/mesh_readers.h>
 
 namespace sinew {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <sinew/core/options.h>
 #include <sinew/core/surface_look.h>
-#include <sinew/mesh/readers/mesh_formats.h>
+#include <sinew/mesh/mesh_formats.h>
 #include <sinew/mesh/surface.h>
 
 namespace sinew {

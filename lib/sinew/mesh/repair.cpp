@@ -12,7 +12,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/border.h>
-#include <sinew/mesh/holes.h>
+#include <sinew/mesh/detail/holes.h>
 #include <sinew/mesh/surface.h>
 
 namespace sinew {

@@ -7,7 +7,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
-#include <sinew/metrics/surface_distortion.h>
+#include <sinew/metrics/detail/surface_distortion.h>
 #include <sinew/metrics/table.h>
 
 namespace sinew {

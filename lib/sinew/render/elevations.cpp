@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
-#include <sinew/render/text.h>
+#include <sinew/render/detail/text.h>
 
 namespace sinew {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include <sinew/core/error.h>
-#include <sinew/render/text.h>
-#include <sinew/render/tripod.h>
+#include <sinew/render/detail/text.h>
+#include <sinew/render/detail/tripod.h>
 
 namespace sinew {
 

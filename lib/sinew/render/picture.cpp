@@ -6,8 +6,8 @@
 #include <utility>
 
 #include <sinew/core/error.h>
-#include <sinew/render/actors.h>
-#include <sinew/render/text.h>
+#include <sinew/render/detail/actors.h>
+#include <sinew/render/detail/text.h>
 
 namespace sinew {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
-#include <sinew/rig/inside_distance.h>
-#include <sinew/rig/joint_zones.h>
+#include <sinew/rig/detail/inside_distance.h>
+#include <sinew/rig/detail/joint_zones.h>
 
 namespace sinew {
 namespace {

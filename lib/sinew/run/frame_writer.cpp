@@ -11,7 +11,7 @@
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
-#include <sinew/run/bond_frames.h>
+#include <sinew/run/detail/bond_frames.h>
 #include <sinew/run/run_files.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/settings/text_file.h>

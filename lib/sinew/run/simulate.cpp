@@ -12,9 +12,9 @@
 #include <sinew/core/text.h>
 #include <sinew/io/paraview/view_script.h>
 #include <sinew/io/paraview/view_state.h>
+#include <sinew/run/detail/run_checkpoints.h>
+#include <sinew/run/detail/run_log.h>
 #include <sinew/run/frame_writer.h>
-#include <sinew/run/run_checkpoints.h>
-#include <sinew/run/run_log.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>

@@ -11,7 +11,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/surface_look.h>
 #include <sinew/core/triangles.h>
-#include <sinew/groups/dynamic/dynamic_groups.h>
+#include <sinew/groups/make_grouping.h>
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/machine.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/settings/entries.h>
+#include <sinew/settings/detail/entries.h>
 #include <sinew/settings/sections.h>
 #include <sinew/settings/text_file.h>
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include <sinew/core/text.h>
-#include <sinew/settings/entries.h>
+#include <sinew/settings/detail/entries.h>
 #include <sinew/settings/text_file.h>
 #include <sinew/settings/values.h>
 

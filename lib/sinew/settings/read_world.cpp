@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <sinew/settings/entries.h>
+#include <sinew/settings/detail/entries.h>
 #include <sinew/settings/text_file.h>
 
 namespace sinew {

@@ -14,10 +14,10 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
 #include <sinew/groups/make_grouping.h>
-#include <sinew/stepping/cell_stepper.h>
-#include <sinew/stepping/dynamic_grouping.h>
+#include <sinew/stepping/detail/cell_stepper.h>
+#include <sinew/stepping/detail/dynamic_grouping.h>
+#include <sinew/stepping/detail/list_stepper.h>
 #include <sinew/stepping/equilibrium.h>
-#include <sinew/stepping/list_stepper.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
@@ -75,9 +75,7 @@ struct Simulation::Parts {
         stepper(make(body, first, checked(given_particles))),
         ledger(first.step),
         world_ledger(first.step),
-        particles(std::move(given_particles)) {
-    free_motion(particles);
-  }
+        particles(std::move(given_particles)) {}
 
   std::shared_ptr<Body> body;  ///< whose grouping may change
   std::shared_ptr<const Motion> motion;
@@ -113,7 +111,9 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
 Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
                        MakeStepper make)
     : its_(std::make_unique<Parts>(std::move(body), std::move(motion), std::move(particles),
-                                   stepping, std::move(make))) {}
+                                   stepping, std::move(make))) {
+  forget_read();
+}
 
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

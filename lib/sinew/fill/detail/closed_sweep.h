@@ -7,9 +7,9 @@
 #include <array>
 #include <vector>
 
-#include <sinew/fill/detail/inside_runs.h>
-#include <sinew/fill/detail/row_crossings.h>
+#include <sinew/fill/inside_runs.h>
 #include <sinew/fill/lattice.h>
+#include <sinew/fill/row_crossings.h>
 #include <sinew/fill/runs.h>
 #include <sinew/mesh/surface.h>
 

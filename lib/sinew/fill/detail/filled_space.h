@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include <sinew/fill/site_index.h>
+#include <sinew/fill/detail/site_index.h>
 #include <sinew/mesh/surface_distance.h>
 #include <sinew/mesh/winding.h>
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <sinew/core/cell_grid.h>
+#include <sinew/fill/detail/isotropy.h>
 #include <sinew/fill/filled_sites.h>
-#include <sinew/fill/isotropy.h>
 #include <sinew/fill/pack.h>
 
 namespace sinew {

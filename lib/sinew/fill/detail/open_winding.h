@@ -15,8 +15,8 @@
 #include <vector>
 
 #include <sinew/core/triangles.h>
-#include <sinew/fill/detail/row_crossings.h>
 #include <sinew/fill/lattice.h>
+#include <sinew/fill/row_crossings.h>
 #include <sinew/fill/runs.h>
 #include <sinew/mesh/surface.h>
 

@@ -8,8 +8,8 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/random.h>
 #include <sinew/fill/detail/filled_space.h>
+#include <sinew/fill/detail/near_surface.h>
 #include <sinew/fill/detail/relax.h>
-#include <sinew/fill/near_surface.h>
 
 namespace sinew {
 namespace {

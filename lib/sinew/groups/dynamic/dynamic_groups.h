@@ -15,21 +15,14 @@
 #include <span>
 #include <vector>
 
+#include <sinew/body/grouping.h>
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/particles.h>
 #include <sinew/groups/bone_parts.h>
 #include <sinew/groups/dynamic/moving_units.h>
-#include <sinew/groups/groups.h>
 #include <sinew/groups/make_grouping.h>
 
 namespace sinew {
-
-struct DynamicOptions {
-  GroupSizes sizes;
-  /// In radii. What joins a group is moved by less (root mean square, half as much where it was
-  /// free); what leaves it would be, by the forces that hold it there.
-  double tolerance = 0.15;
-};
 
 /// A moment of the run.
 struct GroupingMoment {

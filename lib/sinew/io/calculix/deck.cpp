@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include <sinew/core/file.h>
-#include <sinew/io/particle_formats/writers.h>
+#include <sinew/io/particle_formats/detail/writers.h>
 
 namespace sinew {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/accessors.h>
-#include <sinew/io/gltf/container.h>
+#include <sinew/io/gltf/detail/accessors.h>
+#include <sinew/io/gltf/detail/container.h>
 
 namespace sinew {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/accessors.h>
+#include <sinew/io/gltf/detail/accessors.h>
 
 namespace sinew {
 namespace {

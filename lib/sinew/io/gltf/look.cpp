@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
-#include <sinew/io/gltf/accessors.h>
+#include <sinew/io/gltf/detail/accessors.h>
+#include <sinew/io/gltf/detail/materials.h>
 #include <sinew/io/gltf/geometry.h>
-#include <sinew/io/gltf/materials.h>
 
 namespace sinew {
 namespace {

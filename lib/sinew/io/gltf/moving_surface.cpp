@@ -9,9 +9,9 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/json.h>
+#include <sinew/io/gltf/detail/materials.h>
+#include <sinew/io/gltf/detail/split_surface.h>
 #include <sinew/io/gltf/document.h>
-#include <sinew/io/gltf/materials.h>
-#include <sinew/io/gltf/split_surface.h>
 #include <sinew/io/point_cache.h>
 
 namespace sinew {

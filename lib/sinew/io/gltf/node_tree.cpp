@@ -6,7 +6,7 @@
 #include <optional>
 
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/accessors.h>
+#include <sinew/io/gltf/detail/accessors.h>
 
 namespace sinew {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/accessors.h>
+#include <sinew/io/gltf/detail/accessors.h>
+#include <sinew/io/gltf/detail/joint_motion.h>
 #include <sinew/io/gltf/geometry.h>
-#include <sinew/io/gltf/joint_motion.h>
 #include <sinew/rig/skeleton.h>
 
 namespace sinew {

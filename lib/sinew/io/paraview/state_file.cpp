@@ -4,7 +4,7 @@
 #include <map>
 
 #include <sinew/core/text.h>
-#include <sinew/io/xml.h>
+#include <sinew/io/detail/xml.h>
 
 namespace sinew {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
+#include <sinew/io/paraview/detail/view_pipeline.h>
 #include <sinew/io/paraview/state_file.h>
-#include <sinew/io/paraview/view_pipeline.h>
 
 namespace sinew {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <sinew/core/json.h>
 #include <sinew/core/triangles.h>
-#include <sinew/io/particle_formats/writers.h>
+#include <sinew/io/particle_formats/detail/writers.h>
 
 namespace sinew {
 namespace {

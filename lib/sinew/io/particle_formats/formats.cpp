@@ -9,7 +9,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
-#include <sinew/io/particle_formats/writers.h>
+#include <sinew/io/particle_formats/detail/writers.h>
 #include <sinew/io/vtu.h>
 
 namespace sinew {

@@ -3,7 +3,7 @@
 // (https://docs.lammps.org/dump.html) with one frame after the other. Units are SI; ids, types and
 // molecules count from 1: types are regions, molecules components.
 #include <sinew/core/triangles.h>
-#include <sinew/io/particle_formats/writers.h>
+#include <sinew/io/particle_formats/detail/writers.h>
 
 namespace sinew {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <sinew/io/particle_formats/writers.h>
+#include <sinew/io/particle_formats/detail/writers.h>
 
 namespace sinew {
 namespace {

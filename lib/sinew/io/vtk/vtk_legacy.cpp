@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/io/vtk/grids.h>
+#include <sinew/io/vtk/detail/grids.h>
 
 #include <algorithm>
 #include <bit>

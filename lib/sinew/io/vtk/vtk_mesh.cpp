@@ -13,8 +13,8 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/io/vtk/grids.h>
-#include <sinew/io/vtk_xml.h>
+#include <sinew/io/detail/vtk_xml.h>
+#include <sinew/io/vtk/detail/grids.h>
 
 namespace sinew {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/rig/bvh/text.h>
+#include <sinew/rig/bvh/detail/text.h>
 
 namespace sinew {
 namespace {

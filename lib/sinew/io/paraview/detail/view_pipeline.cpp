@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/io/paraview/detail/view_pipeline.h>
+
+#include <algorithm>
+
+#include <sinew/core/text.h>
+
+namespace sinew {
+namespace {
+
+// Numbers of ParaView's enumerations.
+constexpr double above_upper = 2, every_nth_point = 1, all_points = 0;
+
+constexpr std::size_t max_arrows = 1500;  // more would hide each other
+constexpr double bone_share = 0.009;      // radius of a bone's tube in the size of the body
+
+class Pipeline {
+ public:
+  Pipeline(StateFile& state, const ShownRun& run, const ViewOptions& options)
+      : state_(state), run_(run), options_(options) {}
+
+  ViewPipeline made() {
+    open_series();
+    made_.body = &cut_body();
+    if (run_.has("surface")) made_.edges = &feature_edges();
+    if (run_.has_bones) {
+      made_.bones = &tubes_of("bone", 0, 0, bone_radius(run_));
+      made_.axes = &tubes_of("axes", 1, 3, 1.25 * bone_radius(run_));
+    }
+    if (!run_.forces.empty()) made_.forces = &force_arrows();
+    if (run_.has("supports")) made_.machine = {&machine_arrows(false), &machine_arrows(true)};
+    made_.time = &filter("TimeToTextConvertor", "time", *made_.series["particles"])
+                      .text("Format", {"t = {time:.3f} s"});
+    if (options_.forces && made_.forces != nullptr) made_.note = &arrow_note();
+    return std::move(made_);
+  }
+
+ private:
+  StateProxy& source(const char* group, const char* type, const std::string& name) {
+    StateProxy& made = state_.add(group, type, "sources", name);
+    made_.all.push_back(&made);
+    return made;
+  }
+
+  StateProxy& filter(const char* type, const std::string& name, const StateProxy& input) {
+    return source("filters", type, name).refer("Input", {&input});
+  }
+
+  void open_series() {
+    for (const std::string& name : run_.series)
+      made_.series[name] = &source("sources", "PVDReader", name)
+                                .text("FileName", {(run_.folder / (name + ".pvd")).string()});
+  }
+
+  /// The particles beyond a plane across an axis. It deforms with the body, so that the same
+  /// particles are seen at all times.
+  StateProxy& cut_body() {
+    if (options_.cut == "none" || !run_.can_be_cut) return *made_.series["particles"];
+    const auto axis = static_cast<int>(options_.cut.at(0) - 'x');
+    const std::string letter(1, static_cast<char>('X' + axis));
+    StateProxy& place = filter("Calculator", "place at rest", *made_.series["particles"])
+                            .text("ResultArrayName", {"place at rest"})
+                            .text("Function", {"coords" + letter + "-displacement_" + letter});
+    return filter("Threshold", "cut-away body", place)
+        .array("SelectInputScalars", false, "place at rest")
+        .number("ThresholdMethod", above_upper)
+        .number("LowerThreshold", 0)
+        .number("UpperThreshold", (run_.rest[0][axis] + run_.rest[1][axis]) / 2);
+  }
+
+  StateProxy& feature_edges() {
+    StateProxy& outside = filter("DataSetSurfaceFilter", "skin", *made_.series["surface"]);
+    return filter("FeatureEdges", "feature edges", outside)
+        .number("FeatureAngle", 50)
+        .number("Coloring", 0);
+  }
+
+  StateProxy& tubes_of(const std::string& name, double first, double last, double radius) {
+    StateProxy& chosen = filter("Threshold", name, *made_.series["bones"])
+                             .array("SelectInputScalars", true, "axis")
+                             .number("LowerThreshold", first)
+                             .number("UpperThreshold", last);
+    StateProxy& lines = filter("DataSetSurfaceFilter", name + " lines", chosen);
+    return filter("TubeFilter", name + " tubes", lines)
+        .number("Radius", radius)
+        .number("NumberOfSides", 24);
+  }
+
+  /// Arrows of an array of vectors; the longest at any time is a fifth of the body.
+  StateProxy& arrows_of(const std::string& name, const StateProxy& input, const std::string& array,
+                        double largest, std::array<double, 2> radii, double sides) {
+    StateProxy& glyph = filter("Glyph", name, input);
+    StateProxy& arrow = state_
+                            .add("sources", "ArrowSource",
+                                 "pq_helper_proxies." + std::to_string(glyph.id()), "Source")
+                            .number("TipResolution", sides)
+                            .number("ShaftResolution", sides)
+                            .number("TipRadius", radii[0])
+                            .number("ShaftRadius", radii[1]);
+    return glyph.refer("Source", {&arrow})
+        .array("OrientationArray", false, array)
+        .array("ScaleArray", false, array)
+        .number("ScaleFactor", largest > 0 ? arrow_share * run_.size() / largest : 0);
+  }
+
+  StateProxy& force_arrows() {
+    const std::size_t stride = std::max<std::size_t>(1, run_.particles / max_arrows);
+    return arrows_of("force arrows", *made_.series["particles"], run_.forces, run_.strongest,
+                     {0.09, 0.03}, 12)
+        .number("GlyphMode", every_nth_point)
+        .number("Stride", static_cast<double>(stride));
+  }
+
+  /// Forces of the supports, or of the loads, on the body.
+  StateProxy& machine_arrows(bool load) {
+    const std::string name = load ? "loads" : "supports";
+    StateProxy& chosen = filter("Threshold", name + " only", *made_.series["supports"])
+                             .array("SelectInputScalars", false, "load")
+                             .number("LowerThreshold", load)
+                             .number("UpperThreshold", load);
+    return arrows_of(name + " arrows", chosen, "force", run_.hardest, {0.1, 0.03}, 24)
+        .number("GlyphMode", all_points);
+  }
+
+  StateProxy& arrow_note() {
+    return source("sources", "TextSource", "length of arrows")
+        .text("Text", {run_.forces + ": the longest arrow at any time is " +
+                       three_digits(run_.strongest) + " N"});
+  }
+
+  StateFile& state_;
+  const ShownRun& run_;
+  const ViewOptions& options_;
+  ViewPipeline made_;
+};
+
+}  // namespace
+
+double bone_radius(const ShownRun& run) { return bone_share * run.size(); }
+
+ViewPipeline view_pipeline(StateFile& state, const ShownRun& run, const ViewOptions& options) {
+  return Pipeline(state, run, options).made();
+}
+
+}  // namespace sinew

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <sinew/core/text.h>
+#include <sinew/mesh/detail/readers/mesh_readers.h>
+#include <sinew/mesh/detail/readers/ply_header.h>
+
+namespace sinew {
+namespace {
+
+/// The numbers of a text body.
+class TextBody {
+ public:
+  TextBody(const MeshFile& file, const PlyHeader& header)
+      : file_(file), words_(std::string_view(file.content).substr(header.size), header.lines + 1) {}
+
+  std::int64_t integer(const PlyType& type) {
+    const std::string_view word = next();
+    const auto value = integer_in(word);
+    if (!value || *value < type.low || *value > type.high)
+      throw broken(shown(word) + " is no number of type " + std::string(type.name));
+    return *value;
+  }
+
+  double coordinate(const PlyType&) {
+    const std::string_view word = next();
+    const auto value = number_in(word);
+    if (!value || !std::isfinite(*value)) throw broken(shown(word) + " is not a finite number");
+    return *value;
+  }
+
+  void skip(const PlyType&) { next(); }
+
+  Error broken(const std::string& what) const {
+    return file_.broken(words_.line(), what, "correct the line or export the mesh again");
+  }
+
+ private:
+  std::string_view next() {
+    const std::string_view word = words_.next();
+    if (word.empty()) throw broken("the file ends early");
+    return word;
+  }
+
+  const MeshFile& file_;
+  Words words_;
+};
+
+/// The numbers of a binary body. Assumes a little-endian machine.
+class BinaryBody {
+ public:
+  BinaryBody(const MeshFile& file, const PlyHeader& header)
+      : file_(file),
+        rest_(std::string_view(file.content).substr(header.size)),
+        swapped_(header.encoding == PlyEncoding::big) {}
+
+  std::int64_t integer(const PlyType& type) {
+    const auto value = next<std::int64_t>(type);
+    return type.low < 0 && value > type.high ? value - 2 * (type.high + 1) : value;
+  }
+
+  double coordinate(const PlyType& type) {
+    const double value = !type.real        ? static_cast<double>(integer(type))
+                         : type.bytes == 4 ? static_cast<double>(next<float>(type))
+                                           : next<double>(type);
+    if (!std::isfinite(value)) throw broken("a coordinate is not finite");
+    return value;
+  }
+
+  void skip(const PlyType& type) { take(type); }
+
+  Error broken(const std::string& what) const {
+    return file_.broken(0, what, "export the mesh again as PLY");
+  }
+
+ private:
+  template <class Number>
+  Number next(const PlyType& type) {
+    char bytes[8] = {};
+    std::memcpy(bytes, take(type), static_cast<std::size_t>(type.bytes));
+    if (swapped_) std::reverse(bytes, bytes + type.bytes);
+    Number value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  }
+
+  const char* take(const PlyType& type) {
+    const auto bytes = static_cast<std::size_t>(type.bytes);
+    if (rest_.size() < bytes) throw broken("the file ends early: it is cut short");
+    const char* place = rest_.data();
+    rest_.remove_prefix(bytes);
+    return place;
+  }
+
+  const MeshFile& file_;
+  std::string_view rest_;
+  bool swapped_;
+};
+
+/// Reads the whole body. Each step consumes bytes or throws, so no count can cause long loops.
+template <class Body>
+class BodyReader {
+ public:
+  BodyReader(const PlyHeader& header, Body body) : header_(header), body_(std::move(body)) {
+    for (const PlyElement& element : header.elements)
+      if (element.vertices()) vertices_ += element.count;
+  }
+
+  PolygonSoup soup() {
+    for (const PlyElement& element : header_.elements)
+      for (std::int64_t i = 0; i < element.count; ++i) {
+        if (element.vertices()) soup_.points.emplace_back(Vec3::Zero());
+        for (const PlyProperty& property : element.properties) read(element, property);
+      }
+    return std::move(soup_);
+  }
+
+ private:
+  void read(const PlyElement& element, const PlyProperty& property) {
+    const std::int64_t count = property.count ? body_.integer(*property.count) : 1;
+    if (count < 0) throw body_.broken("a list has a negative length");
+    if (element.vertices() && property.axis >= 0)
+      soup_.points.back()[property.axis] = body_.coordinate(*property.type);
+    else if (element.faces() && property.corners)
+      face(*property.type, count);
+    else
+      for (std::int64_t i = 0; i < count; ++i) body_.skip(*property.type);
+  }
+
+  void face(const PlyType& type, std::int64_t count) {
+    if (count < 3) throw body_.broken("a face has " + std::to_string(count) + " corners");
+    corners_.clear();
+    for (std::int64_t i = 0; i < count; ++i) {
+      const std::int64_t corner = body_.integer(type);
+      if (corner < 0 || corner >= vertices_)
+        throw body_.broken("a face names vertex " + std::to_string(corner) + " of " +
+                           std::to_string(vertices_));
+      corners_.push_back(static_cast<int>(corner));
+    }
+    soup_.polygons.emplace_back(corners_.begin(), corners_.end());
+  }
+
+  const PlyHeader& header_;
+  Body body_;
+  PolygonSoup soup_;
+  std::vector<int> corners_;
+  std::int64_t vertices_ = 0;
+};
+
+}  // namespace
+
+PolygonSoup read_ply(const MeshFile& file) {
+  const PlyHeader header = ply_header(file);
+  PolygonSoup soup = header.encoding == PlyEncoding::ascii
+                         ? BodyReader(header, TextBody(file, header)).soup()
+                         : BodyReader(header, BinaryBody(file, header)).soup();
+  refuse_too_many_points(file, soup.points.size());
+  return soup;
+}
+
+}  // namespace sinew

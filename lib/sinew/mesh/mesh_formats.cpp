@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/mesh/mesh_formats.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include <sinew/core/text.h>
+#include <sinew/mesh/detail/readers/mesh_readers.h>
+
+namespace sinew {
+namespace {
+
+std::string first_word(std::string_view content) {
+  return lower(Words(content.substr(0, 100)).next());
+}
+
+bool begins_off(std::string_view content) {
+  const std::string word = first_word(content);
+  return word == "off" || word == "coff" || word == "noff" || word == "cnoff";
+}
+
+/// Binary files may begin with "solid" as well.
+bool begins_stl(std::string_view content) {
+  return first_word(content) == "solid" &&
+         lower(content.substr(0, 500)).find("facet") != std::string::npos;
+}
+
+bool begins_ply(std::string_view content) { return first_word(content) == "ply"; }
+
+template <PolygonSoup (*Reader)(const MeshFile&)>
+PolygonSoup read_whole(const std::string& path);
+
+constexpr std::array<MeshFormat, 4> formats = {{
+    {"OBJ", ".obj", read_whole<read_obj>},
+    {"OFF", ".off", read_whole<read_off>, begins_off},
+    {"STL", ".stl", read_whole<read_stl>, begins_stl},
+    {"PLY", ".ply", read_whole<read_ply>, begins_ply},
+}};
+
+std::string extension_of(const std::string& path) {
+  return lower(std::filesystem::path(path).extension().string());
+}
+
+void check_content(const MeshFile& file) {
+  const auto* seen = std::find_if(formats.begin(), formats.end(), [&](const MeshFormat& format) {
+    return format.recognizes != nullptr && format.recognizes(file.content);
+  });
+  if (seen == formats.end() || seen->extension == extension_of(file.path)) return;
+  const std::string extension(seen->extension);
+  throw bad_input({file.path},
+                  "the extension is not the content's: this is a " + extension.substr(1) + " file",
+                  "rename it to " + extension);
+}
+
+template <PolygonSoup (*Reader)(const MeshFile&)>
+PolygonSoup read_whole(const std::string& path) {
+  const MeshFile file = open_mesh(path);
+  check_content(file);
+  return Reader(file);
+}
+
+std::vector<MeshFormat> with(std::span<const MeshFormat> more) {
+  std::vector<MeshFormat> all(formats.begin(), formats.end());
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+const MeshFormat* format_of(const std::string& path, const std::vector<MeshFormat>& all) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const MeshFormat& format) {
+    return format.extension == extension_of(path);
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
+Error unknown_format(const std::string& path, const std::vector<MeshFormat>& all) {
+  const std::string extension = extension_of(path);
+  std::string cure = "give an ";
+  for (const MeshFormat& format : all) {
+    if (&format != &all.front()) cure += &format == &all.back() ? " or " : ", ";
+    cure += format.extension;
+  }
+  return bad_input({path},
+                   "a mesh cannot be a " + (extension.size() < 2 ? "file without extension"
+                                                                 : "'" + extension + "' file"),
+                   cure + " file");
+}
+
+}  // namespace
+
+std::string mesh_format_names(std::span<const MeshFormat> more) {
+  std::vector<std::string_view> names;
+  for (const MeshFormat& format : with(more)) names.push_back(format.name);
+  return listed(names);
+}
+
+bool names_mesh(const std::string& path, std::span<const MeshFormat> more) {
+  return format_of(path, with(more)) != nullptr;
+}
+
+PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more) {
+  const std::vector<MeshFormat> all = with(more);
+  if (const MeshFormat* format = format_of(path, all)) return format->read(path);
+  check_mesh_file(path);  // first check that the file exists
+  throw unknown_format(path, all);
+}
+
+}  // namespace sinew

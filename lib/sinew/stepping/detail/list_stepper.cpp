@@ -1,0 +1,596 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/stepping/detail/list_stepper.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <sinew/core/parallel.h>
+#include <sinew/core/system.h>
+#include <sinew/lists/particle_order.h>
+#include <sinew/material/laws.h>
+#include <sinew/stepping/detail/force_probe.h>
+
+namespace sinew {
+namespace {
+
+// Columns of sorted particles, in diameters; how much lists may grow before sorting is tried again.
+constexpr double column_edge = 1.2, most_growth = 1.3;
+// By the step count alone, so that a resumed run sorts when an uninterrupted one does: the last
+// bits of sums depend on the order. The lists built for the check cost about one step in a hundred.
+constexpr std::int64_t steps_between_order_checks = 1024;
+
+kernel::PairLaw pair_law_of(const Material& material) {
+  const ForceLaw& law = law_of(material);
+  if (!law.has_memory) return kernel::between_all;
+  if (!law.has_bonds) return kernel::among_neighbors;
+  return bonds_change(material) ? kernel::changing_springs : kernel::springs;
+}
+
+template <class Real>
+ParticleLayout<Real> taken(const Body& body, Particles& particles, double step) {
+  ParticleLayout<Real> layout(body, particles, step);
+  free_motion(particles);
+  return layout;
+}
+
+}  // namespace
+
+template <class Real>
+ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
+                               Particles& particles, kernel::InstructionSet instructions)
+    : body_(std::move(body)),
+      stepping_(stepping),
+      mass_(particles.mass),
+      extent_(bounds(body_->rest).diagonal().norm()),
+      kernel_(kernel::functions_of<Real>(instructions)),
+      law_(pair_law_of(body_->material)),
+      layout_(taken<Real>(*body_, particles, stepping.step)),
+      bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
+      strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
+      surroundings_(body_, stepping, particles.mass),
+      groups_(body_, particles.mass, kernel_),
+      lists_(kernel_, body_->material, stepping.step) {
+  find_slots();
+  groups_.begin(layout_.now, layout_.units());
+  const std::size_t blocks = layout_.now.blocks();
+  if (body_->material.damping_form != DampingForm::paper && body_->material.damping > 0)
+    share_.assign((blocks + 2) * block, 0);
+  totals_.resize((blocks + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
+}
+
+/// What depends on the order of the particles and on the units.
+template <class Real>
+void ListStepper<Real>::find_slots() {
+  slots_ = bone_slots<Real>(*body_, layout_.id(), layout_.units());
+  surroundings_.set_order(layout_.id());
+  groups_.set_order(layout_.id());
+  groups_.read_through(bonds_, !strain_.empty());
+  counted_ = false;
+  masses_.assign(body_->density.empty() ? 0 : layout_.now.blocks() * block, 1);
+  for (std::size_t k = 0; k < layout_.size() && !masses_.empty(); ++k)
+    masses_[k] = static_cast<Real>(body_->density[static_cast<std::size_t>(layout_.id()[k])]);
+}
+
+template <class Real>
+void ListStepper<Real>::place_bones(const Pose& pose) {
+  bones_ = bones_now<Real>(*body_, pose, slots_.center, mass_, layout_.units());
+}
+
+template <class Real>
+kernel::Holds<Real> ListStepper<Real>::holds() const {
+  const auto& [first, slots, held, shares, center] = slots_;
+  return {first.data(), slots.data(), held.data(), shares.data(), bones_.data()};
+}
+
+template <class Real>
+kernel::Step<Real> ListStepper<Real>::job() {
+  const Material& material = body_->material;
+  const PairForce& pair = material.pair;
+  const double T = layout_.units().time, dt = stepping_.step;
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  kernel::Step<Real> step{};
+  step.before = layout_.now.arrays();
+  step.after = layout_.next.arrays();
+  step.blocks = layout_.now.blocks();
+  step.id = layout_.padded_id();
+  step.live = layout_.now.live();
+  step.lists = lists_.arrays();
+  step.parts = lists_.parts();
+  step.holds = holds();
+  step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
+  step.bonds = bonds_.arrays(material, dt);
+  strain_.put_into(step);
+  if constexpr (sizeof(Real) == 8) careful_.resize(layout_.now.blocks() * block);
+  step.careful = careful_.data();
+  step.share = share_.empty() ? nullptr : share_.data() + block;
+  step.central = material.damping_form == DampingForm::central;
+  step.mass = masses_.empty() ? nullptr : masses_.data();
+  step.loads = surroundings_.loads();
+  step.surroundings = surroundings_.calls();
+  step.grouped = groups_.arrays();
+  for (int axis = 0; axis < 3; ++axis)
+    step.gravity[axis] = real(layout_.units().acceleration(stepping_.gravity[axis]));
+  const bool first_of_verlet = stepping_.integrator == Integrator::velocity_verlet && !kicked_;
+  step.keep = 1;
+  step.kick = real(dt / T * (first_of_verlet ? 0.5 : 1));
+  step.drift = real(dt / T);
+  step.middle = real(dt / T / 2);
+  step.drift_first = stepping_.integrator == Integrator::explicit_euler;
+  const double most = layout_.units().velocity(most_radii_per_step * pair.r / dt);
+  step.most = real(most * most);
+  step.totals = totals_.data();
+  return step;
+}
+
+template <class Real>
+void ListStepper<Real>::on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run) {
+  const bool uneven = surroundings_.any() || groups_.any();
+  if (uneven && totals_.size() >= 2 * pieces_per_thread)  // what is touched takes longer
+    parallel_for(totals_.size(), pieces_at_a_time, run);
+  else
+    parallel_split(totals_.size(), pieces_per_thread, run);
+}
+
+/// Puts what pins hold at its place.
+template <class Real>
+void ListStepper<Real>::hold(const TimedPose& now) {
+  moved_.resize(totals_.size());
+  surroundings_.hold(now.pose, now.time, layout_.now, layout_.units(), moved_);
+}
+
+/// The work at the pose, with what must be known of all particles before; `whole`: of groups as
+/// well.
+template <class Real>
+kernel::Step<Real> ListStepper<Real>::begin(const TimedPose& moment, Points* world_forces,
+                                            bool whole) {
+  const auto& [time, pose] = moment;
+  hold(moment);
+  update_lists();
+  if (whole) groups_.show_all(layout_.now, layout_.units());
+  groups_.watch(lists_.arrays(), lists_.take_changed(), bonds_,
+                [this](std::size_t piece) { return lists_.meets_others(piece); });
+  groups_.place(layout_.now, layout_.units());
+  if (!whole) groups_.wake(layout_.now, layout_.units());
+  place_bones(pose);
+  surroundings_.begin(pose, time, layout_.now, layout_.units(), lists_, world_forces);
+  if (has_muscles(*body_))
+    strain_.fibers.set_activations(activations_at(body_->world->muscles, time));
+  auto now = job();
+  if (whole) now.grouped = {};
+  find_deformation(now);
+  return now;
+}
+
+template <class Real>
+void ListStepper<Real>::find_deformation(const kernel::Step<Real>& now) {
+  if (!strain_.empty())
+    on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.strain(now, first, last); });
+  find_flow(now);
+  if (share_.empty()) return;
+  auto counting = now;
+  // Within groups, the neighbors of idle blocks remain.
+  if (!std::exchange(counted_, true)) counting.grouped = {};
+  on_all_pieces(
+      [&](std::size_t first, std::size_t last) { kernel_.count[law_](counting, first, last); });
+}
+
+template <class Real>
+ListCounts ListStepper<Real>::counts() const {
+  ListCounts counts = lists_.counts();
+  counts.sorts = sorts_;
+  counts.sorting = sorting_;
+  return counts;
+}
+
+template <class Real>
+std::vector<std::int32_t> ListStepper<Real>::broken_bonds() const {
+  const bool bonded = law_ == kernel::springs || law_ == kernel::changing_springs;
+  std::vector<std::int32_t> broken(bonded ? layout_.caller().size() : 0);
+  for (std::size_t k = 0; k < broken.size() && !bonds_.broken.empty(); ++k)
+    broken[layout_.caller()[k]] = bonds_.broken[k];
+  return broken;
+}
+
+template <class Real>
+void ListStepper<Real>::read(BondRest& rest) const {
+  bonds_.read(layout_.id(), layout_.units(), rest);
+}
+
+template <class Real>
+StepSums ListStepper<Real>::sums_of_totals() const {
+  const double watts = mass_ * layout_.units().length * layout_.units().length /
+                       (layout_.units().time * layout_.units().time * layout_.units().time);
+  StepSums sums;
+  for (const kernel::Totals& piece : totals_) {  // in this order, whichever thread made them
+    sums.power += piece.power;
+    sums.lost += piece.lost;
+    sums.world_power += piece.driven_power;
+  }
+  const WorldSums world = surroundings_.sums();
+  sums.power *= watts;
+  sums.power += groups_.sums().power;
+  sums.lost = sums.lost * watts + world.lost + groups_.sums().lost;
+  sums.world_power = sums.world_power * watts + world.power;
+  sums.held_kinetic = world.held_kinetic;
+  return sums;
+}
+
+template <class Real>
+void ListStepper<Real>::advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) {
+  for (const TimedPose& now : begins) {
+    sums.push_back(run(begin(now, nullptr, false), now.pose));
+    if (sums.back().failure) return;
+    accept();
+  }
+}
+
+template <class Real>
+WorldReactions ListStepper<Real>::reactions() const {
+  return {surroundings_.reactions(), surroundings_.reactions_of_pins(), surroundings_.of_supports(),
+          surroundings_.of_loads()};
+}
+
+template <class Real>
+StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
+  const auto work = kernel_.step[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  on_all_pieces([&](std::size_t first, std::size_t last) { work(now, first, last); });
+  move_groups(now);
+  StepSums sums = sums_of_totals();
+  if (!std::all_of(totals_.begin(), totals_.end(),
+                   [](const kernel::Totals& piece) { return piece.sound; })) {
+    sums.failure = failure(pose);
+    lists_ = lists_.anew(stepping_.step);  // bonds stay broken
+  }
+  return sums;
+}
+
+template <class Real>
+void ListStepper<Real>::move_groups(const kernel::Step<Real>& now) {
+  if (!groups_.any()) return;
+  const auto seconds = [T = layout_.units().time](Real time) {
+    return static_cast<double>(time) * T;
+  };
+  const GroupStep by{seconds(now.kick), seconds(now.drift), seconds(now.middle), now.drift_first,
+                     stepping_.gravity};
+  groups_.sum(bonds_, now, layout_.units(), by);
+  const auto meets = [this](std::size_t piece) { return lists_.meets_others(piece); };
+  groups_.bound(layout_.units(), by, meets, lists_.parts(), totals_);
+  groups_.check_stretch();
+}
+
+template <class Real>
+void ListStepper<Real>::accept() {
+  groups_.advance();
+  layout_.advance(travel_of_step());
+  bonds_.branches.advance(stepping_.step);
+  kicked_ = stepped_ = true;
+  ++steps_;
+}
+
+template <class Real>
+void ListStepper<Real>::update_lists() {
+  if (layout_.units_are_due()) groups_.show_all(layout_.now, layout_.units());
+  const bool stepped = std::exchange(stepped_, false), anew = layout_.change_units();
+  if (anew) follow_units();
+  add_moved();
+  if (order_check_due()) {
+    make_lists();
+    if (lists_.mean_of_outer() > most_growth * mean_when_sorted_) sort();
+  } else if (anew || !lists_.made()) {
+    make_lists();
+  } else if (stepped) {
+    lists_.follow(layout_.now, bonds_, layout_.units(), totals_, grouped());
+  }
+}
+
+template <class Real>
+GroupedParticles ListStepper<Real>::grouped() {
+  if (!groups_.any()) return {};
+  const auto show = [this](std::span<const std::uint32_t> pieces) {
+    groups_.show(layout_.now, layout_.units(), pieces);
+  };
+  const auto now = [this](std::size_t piece) { return groups_.piece_now(piece, layout_.units()); };
+  return {show, groups_.group_of_pieces(), now, groups_.strains(), groups_.working_pieces()};
+}
+
+/// What pins moved counts as faster motion of the step before.
+template <class Real>
+void ListStepper<Real>::add_moved() {
+  for (std::size_t piece = 0; piece < moved_.size(); ++piece) {
+    const double moved = std::exchange(moved_[piece], 0) / layout_.units().length;
+    if (moved > 0 && lists_.made()) lists_.add_moved(piece, moved);
+  }
+}
+
+template <class Real>
+void ListStepper<Real>::follow_units() {
+  find_slots();
+  bonds_.set_units(*body_, layout_.id(), mass_, layout_.units());
+  strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
+}
+
+template <class Real>
+void ListStepper<Real>::make_lists() {
+  lists_.make(layout_.now, parts(), bonds_, layout_.units(), grouped());
+}
+
+template <class Real>
+PieceParts ListStepper<Real>::parts() const {
+  return piece_parts(*body_, layout_.id(), block);
+}
+
+/// What keeps its neighbors keeps its order. A second check before the same step, as in a run
+/// resumed there, would change nothing.
+template <class Real>
+bool ListStepper<Real>::order_check_due() {
+  return law_ == kernel::between_all && !groups_.any() &&
+         steps_ % steps_between_order_checks == 0 &&
+         std::exchange(order_checked_, steps_) != steps_;
+}
+
+/// Sorts the particles into columns where that makes the lists shorter.
+template <class Real>
+void ListStepper<Real>::sort() {
+  Stopwatch watch;
+  auto order = order_by_columns(layout_.now,
+                                column_edge * 2 * body_->material.pair.r / layout_.units().length);
+  VerletLists<Real> before = std::exchange(lists_, lists_.anew(stepping_.step));
+  const double unsorted = before.mean_of_outer();
+  layout_.reorder(order);
+  lists_.make_some(layout_.now, parts(), bonds_, layout_.units());
+  const double sorted = lists_.mean_of_outer();
+  mean_when_sorted_ = std::min(sorted, unsorted);
+  if (sorted > 0.95 * unsorted) {
+    layout_.reorder(order);
+    lists_ = std::move(before);
+  } else {
+    ++sorts_;
+    if (!lists_.whole()) make_lists();
+    find_slots();
+    bonds_ = bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units());  // of muscles
+    strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
+  }
+  sorting_ += watch.lap();
+}
+
+/// How far any particle has traveled in the step, m.
+template <class Real>
+double ListStepper<Real>::travel_of_step() const {
+  double speed2 = 0;
+  for (const kernel::Totals& piece : totals_) speed2 = std::max(speed2, piece.speed2);
+  return 1.001 * std::sqrt(speed2) * layout_.units().length / layout_.units().time * stepping_.step;
+}
+
+template <class Real>
+void ListStepper<Real>::set_step(double step) {
+  stepping_.step = step;
+  surroundings_.set_step(step);
+  lists_ = lists_.anew(step);
+  order_checked_ = -1;
+  stepped_ = false;
+}
+
+template <class Real>
+void ListStepper<Real>::save(SimulationState& state) {
+  groups_.show_all(layout_.now, layout_.units());
+  layout_.save(state);
+  groups_.save(state);
+  bonds_.save(state);
+  surroundings_.save(state);
+  state.kicked = kicked_;
+  state.mean_when_sorted = mean_when_sorted_;
+}
+
+template <class Real>
+void ListStepper<Real>::restore(const SimulationState& state) {
+  if (!state.rest_length.empty()) throw not_a_state("it is of cells");
+  ParticleLayout<Real> layout = layout_;
+  layout.restore(state);
+  auto bonds = bond_lists<Real>(*body_, mass_, layout.id(), layout.units());
+  bonds.restore(state);
+  layout_ = std::move(layout);
+  bonds_ = std::move(bonds);
+  strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
+  groups_ = Groups<Real>(body_, mass_, kernel_);
+  find_slots();
+  groups_.restore(state);
+  surroundings_.restore(state);
+  kicked_ = state.kicked;
+  mean_when_sorted_ = state.mean_when_sorted;
+  steps_ = state.steps;
+  order_checked_ = -1;
+  stepped_ = false;
+  lists_ = lists_.anew(stepping_.step);
+}
+
+template <class Real>
+Balance ListStepper<Real>::evaluate(const TimedPose& moment, Forces& forces) {
+  Points of_world;
+  const auto now = begin(moment, surroundings_.any() ? &of_world : nullptr, true);
+  const double newtons =
+      mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
+  const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  const ForceProbe<Real> probe(work, now, layout_, newtons, has_muscles(*body_), of_world);
+  resize(forces, layout_.size(), body_->world != nullptr || surroundings_.any());
+  on_all_pieces([&](std::size_t first, std::size_t last) { probe(first, last, forces); });
+  groups_.constrain(forces, layout_.caller(), stepping_.gravity);
+  const StepSums sums = sums_of_totals();
+  Balance balance{sums.power, sums.lost, 0, 0, sums.world_power, 0, sums.held_kinetic};
+  balance.contact_energy = surroundings_.sums().contact_energy;
+  const double joules = newtons * layout_.units().length;
+  for (const kernel::Totals& piece : totals_) {
+    balance.pair_energy += joules * piece.pair_energy;
+    balance.bone_energy += joules * piece.bone_energy;
+  }
+  return balance;
+}
+
+template <class Real>
+void ListStepper<Real>::read(const TimedPose& now, Particles& particles) {
+  hold(now);
+  groups_.show_all(layout_.now, layout_.units());
+  layout_.read(particles);
+  if (stepping_.integrator != Integrator::velocity_verlet || !kicked_) return;
+  Forces forces;
+  evaluate(now, forces);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    particles.set_velocity(
+        i, particles.velocity(i) +
+               stepping_.step / 2 *
+                   (forces.total(i) /
+                        mass_of(*body_, static_cast<std::size_t>(particles.id[i]), mass_) +
+                    stepping_.gravity));
+}
+
+// Where bonds may flow is found before a step, but only of pieces that may have come to it since
+// they were looked at, which most of a body has not.
+
+namespace {
+
+/// How far particles may move relative to each other, at least, before any of them yields.
+///
+/// With e = (d - l) d / l0^2 of each bond, the tensor T of body/solid.h is a mean of (e - mean e) n
+/// n^T. If the two particles of every bond move relative to each other by g at most, e changes by
+/// no more than ((d + |d - l|) g + g^2) / l0^2, and n n^T, of norm 1, by no more than 2.3 g / d,
+/// for g below d / 2. The shear is the norm of D = 15/2 dev T.
+template <class Real>
+double still_length(const kernel::FlowLook<Real>& look, double diameter, double longest) {
+  const auto spare = static_cast<double>(look.spare), reach = static_cast<double>(look.reach);
+  if (!(spare > 0) || !(reach < longest)) return 0;
+  const double nearest = std::min(std::sqrt(static_cast<double>(look.nearest2)), diameter);
+  const double most = std::min(nearest / 2, diameter / 10), l2 = diameter * diameter;
+  const double tension = static_cast<double>(look.tension) / l2;
+  const double slope = 7.5 * (2 * (reach + most) / l2 + 2 * tension * 2.3 / nearest);
+  return std::min(most, 0.99 * spare / slope);
+}
+
+}  // namespace
+
+template <class Real>
+void ListStepper<Real>::find_flow(const kernel::Step<Real>& now) {
+  if (bonds_.look.empty()) return;
+  const auto flows = [&](std::size_t piece) { return bonds_.look[piece].spare <= 0; };
+  const std::vector<std::uint32_t> pieces = lists_.to_look_at(flows);
+  parallel_for(pieces.size(), pieces_at_a_time, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) kernel_.flow(now, pieces[k], pieces[k] + 1);
+  });
+  const bool relaxes = now.bonds.branches > 0;  // whose stress changes while nothing moves
+  const double diameter = 2 * body_->material.pair.r / layout_.units().length;
+  for (const std::uint32_t piece : pieces)
+    lists_.looked_at(
+        piece, relaxes ? 0 : still_length(bonds_.look[piece], diameter, lists_.outer_range()));
+}
+
+/// The particles that failed, in the caller's order; the fastest one where rounding leaves none.
+template <class Real>
+Failure ListStepper<Real>::failure(const Pose& pose) {
+  Failure failure;
+  const double most = most_radii_per_step * body_->material.pair.r *
+                      (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
+  Offender fastest{0, true, -1};
+  for (std::size_t k = 0; k < layout_.caller().size(); ++k) {
+    if (groups_.is_idle(k)) continue;
+    const double moved = stepping_.step * relative_velocity(pose, k).norm();
+    const bool finite =
+        std::isfinite(moved) && layout_.next.velocity(k, layout_.units()).allFinite();
+    const Offender one{layout_.caller()[k], finite, std::isfinite(moved) ? moved : 0};
+    if (finite && moved > fastest.moved) fastest = one;
+    if (!finite || moved > most) failure.all.push_back(one);
+  }
+  if (failure.all.empty()) failure.all.push_back(fastest);
+  std::sort(failure.all.begin(), failure.all.end(),
+            [](const Offender& a, const Offender& b) { return a.particle < b.particle; });
+  failure.first = failure.all.front();
+  return failure;
+}
+
+/// Velocity after the step relative to the leading bone or, without one and for what is held, to
+/// the velocity before.
+template <class Real>
+Vec3 ListStepper<Real>::relative_velocity(const Pose& pose, std::size_t k) const {
+  const int bone = body_->binding.bone(static_cast<std::size_t>(layout_.padded_id()[k]));
+  const Vec3 carried = bone == no_bone || surroundings_.is_held(k)
+                           ? layout_.now.velocity(k, layout_.units())
+                           : pose[bone].velocity_at(layout_.now.position(k, layout_.units()));
+  return layout_.next.velocity(k, layout_.units()) - carried;
+}
+
+template <class Real>
+StepSums ListStepper<Real>::try_step(const TimedPose& moment, double keep) {
+  auto now = begin(moment, nullptr, false);
+  now.relaxes = true;
+  now.keep = static_cast<Real>(keep);
+  now.kick = static_cast<Real>(stepping_.step / layout_.units().time * (1 + keep) / 2);
+  StepSums sums = run(now, moment.pose);
+  sums.imbalance = imbalance();
+  return sums;
+}
+
+template <class Real>
+void ListStepper<Real>::halt() {
+  layout_.now.halt();
+}
+
+template <class Real>
+Imbalance ListStepper<Real>::imbalance() const {
+  const double L = layout_.units().length, T = layout_.units().time;
+  Imbalance sum;
+  double pulled = 0;
+  for (const kernel::Totals& piece : totals_) {  // in this order, whichever thread made them
+    sum.aa += piece.relaxing.aa;
+    sum.av += piece.relaxing.av;
+    sum.vv += piece.relaxing.vv;
+    sum.unbalanced += piece.relaxing.unbalanced;
+    pulled += piece.relaxing.pulled;
+    sum.flowing += piece.lost;
+  }
+  sum.aa *= L * L / (T * T * T * T);
+  sum.av *= L * L / (T * T * T);
+  sum.vv *= L * L / (T * T);
+  const double newtons = mass_ * L / (T * T);
+  sum.flowing *= newtons * L / T;
+  sum.unbalanced *= newtons;
+  const double weight = total_mass(*body_, mass_) * stepping_.gravity.norm();
+  const double loaded = surroundings_.loaded();
+  sum.applied = std::max({newtons * pulled / 2, surroundings_.sums().applied + loaded, weight});
+  sum.loaded = loaded + weight;
+  for (const Reaction& support : surroundings_.of_supports())
+    sum.applied = std::max({sum.applied, support.force.norm(), support.moment.norm() / extent_});
+  return sum;
+}
+
+template <class Real>
+void ListStepper<Real>::regroup() {
+  groups_.show_all(layout_.now, layout_.units());
+  std::vector<std::int32_t> id(layout_.size());
+  std::vector<std::uint32_t> place(layout_.size());
+  for (std::uint32_t k = 0; k < place.size(); ++k) {
+    const std::uint32_t i = layout_.caller()[k];
+    id[i] = layout_.id()[k];
+    place[i] = k;
+  }
+  std::vector<std::uint32_t> order = order_at_rest(*body_, id);
+  for (std::uint32_t& one : order) one = place[one];
+  layout_.reorder(order);
+  groups_ = Groups<Real>(body_, mass_, kernel_);
+  bonds_ = bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units());  // none has changed
+  strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
+  find_slots();
+  groups_.begin(layout_.now, layout_.units());
+  lists_ = lists_.anew(stepping_.step);
+  stepped_ = false;
+}
+
+template <class Real>
+std::vector<HeldCell> ListStepper<Real>::held(std::span<const std::int32_t> cell,
+                                              std::size_t cells) const {
+  std::vector<HeldCell> held(cells);
+  groups_.add_held(cell, layout_.units(), held);
+  return held;
+}
+
+template class ListStepper<double>;
+template class ListStepper<float>;
+
+}  // namespace sinew
