@@ -80,6 +80,7 @@ constexpr Functions<typename L::Real> functions() {
   add<L, among_neighbors>(all);
   add<L, springs>(all);
   add<L, changing_springs>(all);
+  all.kept = kept_forces<L> * sizeof(Forces<L>);
   all.bound = bound_piece<lanes::Floats, typename L::Real>;
   all.list = list_two<lanes::Floats, typename L::Real>;
   all.prune = prune_list<L>;

@@ -176,15 +176,17 @@ struct Loads {
   const Real* acceleration[3];
 };
 
-/// What surrounds the body acts through a function outside of the kernel, on the blocks that it may
-/// touch.
+/// What surrounds the body acts on the blocks that it may touch when all other forces on them are
+/// known. A piece with such blocks takes two calls: one finds the forces on these alone and keeps
+/// them, whoever calls changes their accelerations, the other makes the step with what is kept.
+/// Rows are those of a piece: block after block, `block` of each.
 template <class Real>
 struct Surroundings {
-  const std::uint8_t* touched;  ///< by block; null: there is nothing
-  void* context;
-  /// Adds to the accelerations of `count` particles from i on, axis by axis; `held` becomes 1 for
-  /// those that pins hold, else 0.
-  void (*act)(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3], Real* held);
+  const std::uint8_t* touched;  ///< by block of the body; null: there is nothing
+  bool finding;                 ///< the first of the two calls
+  Real* acceleration[3];        ///< rows: found, then what it has become
+  const Real* held;             ///< rows: 1 for what pins hold, else 0
+  void* forces;                 ///< room for what is kept, of Functions::kept bytes
 };
 
 /// Particles that move in groups: see ../hierarchy/groups.h. What a block's role is unless it has a
@@ -323,6 +325,8 @@ struct Functions {
   Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
   Work<Real> probe[pair_laws][dampings];
+  /// Bytes that Surroundings::forces takes, at 64 byte boundaries.
+  std::size_t kept;
   /// Of groups, by their motions: places and velocities; sums of forces; what bones exert.
   void (*put[motions])(const PutInput<Real>&);
   /// The largest squared length of a field at the particles.

@@ -102,32 +102,47 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf
   return forces;
 }
 
-/// The rest of the surroundings acts on what all other forces leave. Particles that pins hold move
-/// as told.
+template <class Real>
+SINEW_INLINE bool is_touched(const Surroundings<Real>& surroundings, std::size_t block) {
+  return surroundings.touched != nullptr && surroundings.touched[block] != 0;
+}
+
+/// Of a piece.
 template <class L>
-[[gnu::noinline]] void surround(const Step<typename L::Real>& step, std::ptrdiff_t i,
-                                const Triple<L>& velocity, Forces<L>& forces) {
-  typename L::Real acceleration[3][L::width], held[L::width];
-  L::store(acceleration[0], forces.acceleration.x);
-  L::store(acceleration[1], forces.acceleration.y);
-  L::store(acceleration[2], forces.acceleration.z);
-  typename L::Real* const axes[3] = {acceleration[0], acceleration[1], acceleration[2]};
-  step.surroundings.act(step.surroundings.context, i, L::width, axes, held);
-  forces.acceleration = {L::load(acceleration[0]), L::load(acceleration[1]),
-                         L::load(acceleration[2])};
-  const auto told = L::less(L::all(0), L::load(held));
+inline constexpr std::size_t kept_forces =
+    blocks_per_piece* Traits<typename L::Real>::block / L::width;
+
+/// Row of a vector of a block, in its piece.
+template <class L>
+SINEW_INLINE std::ptrdiff_t row_of(std::size_t block, int lane) {
+  return static_cast<std::ptrdiff_t>(block % blocks_per_piece) * Traits<typename L::Real>::block +
+         lane;
+}
+
+template <class L>
+SINEW_INLINE Forces<L>& place_of_forces(const Step<typename L::Real>& step, std::ptrdiff_t row) {
+  return static_cast<Forces<L>*>(step.surroundings.forces)[row / L::width];
+}
+
+template <class L>
+[[gnu::noinline]] void keep(const Step<typename L::Real>& step, std::ptrdiff_t row,
+                            const Forces<L>& forces) {
+  place_of_forces<L>(step, row) = forces;
+  store<L>(step.surroundings.acceleration, row, forces.acceleration);
+}
+
+/// After the surroundings have acted. Particles that pins hold move as told.
+template <class L>
+[[gnu::noinline]] Forces<L> kept(const Step<typename L::Real>& step, std::ptrdiff_t row,
+                                 const Triple<L>& velocity) {
+  Forces<L> forces = place_of_forces<L>(step, row);
+  forces.acceleration = load<L>(step.surroundings.acceleration, row);
+  const auto told = L::less(L::all(0), L::load(step.surroundings.held + row));
   const Triple<L>& carried = forces.bones.carried;
   forces.bones.carried = {L::pick(told, velocity.x, carried.x),
                           L::pick(told, velocity.y, carried.y),
                           L::pick(told, velocity.z, carried.z)};
-}
-
-template <class L>
-SINEW_INLINE void surround_if_touched(const Step<typename L::Real>& step, std::size_t block,
-                                      std::ptrdiff_t i, const Triple<L>& velocity,
-                                      Forces<L>& forces) {
-  if (step.surroundings.touched == nullptr || step.surroundings.touched[block] == 0) return;
-  surround<L>(step, i, velocity, forces);
+  return forces;
 }
 
 /// What moves a group is stored.
@@ -220,8 +235,12 @@ SINEW_INLINE void advance(const Step<typename L::Real>& step, const LawOf<L, pai
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
   const Triple<L> velocity = load<L>(step.before.v, i);
-  Forces<L> forces = forces_on<L, pairs, pass, false>(step, law, block, lane, here, velocity);
-  surround_if_touched<L>(step, block, i, velocity, forces);
+  const bool touched = is_touched(step.surroundings, block);
+  const Forces<L> forces =
+      touched && !step.surroundings.finding
+          ? kept<L>(step, row_of<L>(block, lane), velocity)
+          : forces_on<L, pairs, pass, false>(step, law, block, lane, here, velocity);
+  if (touched && step.surroundings.finding) return keep<L>(step, row_of<L>(block, lane), forces);
   gather_if_grouped<L>(step.grouped, block, lane, forces.acceleration);
   const Triple<L> kicked =
       fused<L>(L::all(step.kick), forces.acceleration, L::all(step.keep) * velocity);
@@ -255,8 +274,12 @@ SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const LawOf<L
       static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
   const Place<L> here = load_place<L>(step.before.x, i);
   const Triple<L> velocity = load<L>(step.before.v, i);
-  Forces<L> forces = forces_on<L, pairs, pass, true>(step, law, block, lane, here, velocity);
-  surround_if_touched<L>(step, block, i, velocity, forces);
+  const bool touched = is_touched(step.surroundings, block);
+  const Forces<L> forces =
+      touched && !step.surroundings.finding
+          ? kept<L>(step, row_of<L>(block, lane), velocity)
+          : forces_on<L, pairs, pass, true>(step, law, block, lane, here, velocity);
+  if (touched && step.surroundings.finding) return keep<L>(step, row_of<L>(block, lane), forces);
   const std::ptrdiff_t to = i - step.probed.first;
   store<L>(step.probed.pair, to, forces.pairs.force);
   store<L>(step.probed.damping, to, forces.damping);
@@ -333,8 +356,10 @@ SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_
     const std::size_t first = piece * blocks_per_piece, last = first + blocks_per_piece;
     for (std::size_t block = first; block < last && block < step.blocks; ++block) {
       if (step.grouped.role != nullptr && step.grouped.role[block] == idle) continue;
+      if (step.surroundings.finding && !is_touched(step.surroundings, block)) continue;
       for (int lane = 0; lane < block_size; lane += L::width) visit(block, lane, sums);
     }
+    if (step.surroundings.finding) continue;
     if constexpr (moves) store_fastest<L>(step, piece, sums);
     step.totals[piece] = totals_of(sums);
   }

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace sinew {
 
 template <class Real>
-ForceProbe<Real>::ForceProbe(kernel::Work<Real> work, const kernel::Step<Real>& job,
+ForceProbe<Real>::ForceProbe(Work work, const kernel::Step<Real>& job,
                              const ParticleLayout<Real>& layout, double newtons, bool muscles,
                              const Points& of_world)
-    : work_(work),
+    : work_(std::move(work)),
       job_(job),
       layout_(layout),
       newtons_(newtons),

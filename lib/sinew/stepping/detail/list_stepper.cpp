@@ -48,7 +48,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       layout_(taken<Real>(*body_, particles, stepping.step)),
       bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
-      surroundings_(body_, stepping, particles.mass),
+      surroundings_(body_, stepping, particles.mass, kernel_.kept),
       groups_(body_, particles.mass, kernel_),
       lists_(kernel_, body_->material, stepping.step) {
   find_slots();
@@ -107,7 +107,6 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.central = material.damping_form == DampingForm::central;
   step.mass = masses_.empty() ? nullptr : masses_.data();
   step.loads = surroundings_.loads();
-  step.surroundings = surroundings_.calls();
   step.grouped = groups_.arrays();
   for (int axis = 0; axis < 3; ++axis)
     step.gravity[axis] = real(layout_.units().acceleration(stepping_.gravity[axis]));
@@ -234,7 +233,8 @@ WorldReactions ListStepper<Real>::reactions() const {
 template <class Real>
 StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
   const auto work = kernel_.step[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
-  on_all_pieces([&](std::size_t first, std::size_t last) { work(now, first, last); });
+  on_all_pieces(
+      [&](std::size_t first, std::size_t last) { surroundings_.run(work, now, first, last); });
   move_groups(now);
   StepSums sums = sums_of_totals();
   if (!std::all_of(totals_.begin(), totals_.end(),
@@ -411,7 +411,10 @@ Balance ListStepper<Real>::evaluate(const TimedPose& moment, Forces& forces) {
   const double newtons =
       mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
   const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
-  const ForceProbe<Real> probe(work, now, layout_, newtons, has_muscles(*body_), of_world);
+  const auto probed = [&](const kernel::Step<Real>& job, std::size_t first, std::size_t last) {
+    surroundings_.run(work, job, first, last);
+  };
+  const ForceProbe<Real> probe(probed, now, layout_, newtons, has_muscles(*body_), of_world);
   resize(forces, layout_.size(), body_->world != nullptr || surroundings_.any());
   on_all_pieces([&](std::size_t first, std::size_t last) { probe(first, last, forces); });
   groups_.constrain(forces, layout_.caller(), stepping_.gravity);

@@ -2,9 +2,11 @@
 #include <sinew/stepping/detail/surroundings.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
+#include <sinew/core/lines.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/material/laws.h>
@@ -28,11 +30,12 @@ bool surrounds(const Body& body) {
 
 template <class Real>
 Surroundings<Real>::Surroundings(std::shared_ptr<const Body> body, const Stepping& stepping,
-                                 double mass)
+                                 double mass, std::size_t kept)
     : body_(std::move(body)),
       world_(body_->world ? body_->world : std::make_shared<const World>()),
       stepping_(stepping),
       mass_(mass),
+      kept_(kept),
       any_(surrounds(*body_)),
       everywhere_(any_ && fills_space(*world_)),
       acts_in_space_(everywhere_ || (any_ && !world_->obstacles.empty())),
@@ -227,27 +230,70 @@ void Surroundings<Real>::answer_of_pins(std::size_t k, const PinPose& at, const 
     add_answer(pin, at, -unheld, now_.supports, piece.of_supports);
 }
 
+/// What the kernel finds on the touched blocks of a piece, and what becomes of it.
 template <class Real>
-kernel::Surroundings<Real> Surroundings<Real>::calls() {
-  if (!any_) return {};
-  return {touched_.data(), this, act};
+struct Surroundings<Real>::Rows {
+  static constexpr std::size_t count = kernel::blocks_per_piece * BlockState<Real>::block;
+
+  std::array<std::array<Real, count>, 3> acceleration;
+  std::array<Real, count> held;
+  Lines<std::uint8_t> kept;
+
+  kernel::Surroundings<Real> of(const std::uint8_t* touched) {
+    return {touched,
+            false,
+            {acceleration[0].data(), acceleration[1].data(), acceleration[2].data()},
+            held.data(),
+            kept.data()};
+  }
+};
+
+template <class Real>
+bool Surroundings<Real>::acts_on(const kernel::Step<Real>& step, std::size_t block) {
+  return step.surroundings.touched[block] != 0 &&
+         (step.grouped.role == nullptr || step.grouped.role[block] != kernel::idle);
 }
 
 template <class Real>
-void Surroundings<Real>::act(void* context, std::ptrdiff_t i, int count,
-                             Real* const acceleration[3], Real* held) {
-  auto& self = *static_cast<Surroundings*>(context);
-  const double unit = self.units_.length / (self.units_.time * self.units_.time);
-  for (int n = 0; n < count; ++n) {
-    const auto k = static_cast<std::size_t>(i + n);
-    held[n] = 0;
-    if (k >= self.state_->size()) continue;
-    const Vec3 before = unit * Vec3(acceleration[0][n], acceleration[1][n], acceleration[2][n]);
+void Surroundings<Real>::run(kernel::Work<Real> work, const kernel::Step<Real>& step,
+                             std::size_t begin, std::size_t end) {
+  if (!any_) return work(step, begin, end);
+  static thread_local Rows rows;  // memory of the thread, used within one piece
+  if (rows.kept.size() < kept_) rows.kept.resize(kept_);
+  kernel::Step<Real> own = step;
+  own.surroundings = rows.of(touched_.data());
+  for (std::size_t piece = begin; piece < end; ++piece) {
+    const std::size_t first = piece * kernel::blocks_per_piece;
+    const std::size_t last = std::min(first + kernel::blocks_per_piece, touched_.size());
+    bool some = false;
+    for (std::size_t block = first; block < last && !some; ++block) some = acts_on(own, block);
+    if (some) {
+      own.surroundings.finding = true;
+      work(own, piece, piece + 1);
+      own.surroundings.finding = false;
+      act(own, piece, rows);
+    }
+    work(own, piece, piece + 1);
+  }
+}
+
+template <class Real>
+void Surroundings<Real>::act(const kernel::Step<Real>& step, std::size_t piece, Rows& rows) {
+  constexpr std::size_t block_size = BlockState<Real>::block;
+  const double unit = units_.length / (units_.time * units_.time);
+  const std::size_t begin = piece * Rows::count;
+  for (std::size_t row = 0; row < Rows::count; ++row) {
+    rows.held[row] = 0;
+    const std::size_t k = begin + row;
+    if (k >= state_->size() || !acts_on(step, k / block_size)) continue;
+    auto& [x, y, z] = rows.acceleration;
+    const Vec3 before = unit * Vec3(x[row], y[row], z[row]);
     Vec3 after = before;
-    self.act_on(k, after, held[n]);
+    act_on(k, after, rows.held[row]);
     if (after == before) continue;  // not even rounded
     for (int axis = 0; axis < 3; ++axis)
-      acceleration[axis][n] = static_cast<Real>(after[axis] / unit);
+      rows.acceleration[static_cast<std::size_t>(axis)][row] =
+          static_cast<Real>(after[axis] / unit);
   }
 }
 

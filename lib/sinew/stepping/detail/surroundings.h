@@ -4,7 +4,7 @@
 // they may touch; loads, as accelerations that the kernel adds. ../world/world.h gives the forces.
 //
 //     surroundings.begin(pose, time, state, units, lists, nullptr);  // before a step
-//     step.surroundings = surroundings.calls();
+//     surroundings.run(kernel.step[law][damping], step, begin, end);  // on pieces, in parallel
 //     const WorldSums sums = surroundings.sums();                    // after it
 #pragma once
 
@@ -37,8 +37,9 @@ struct WorldSums {
 template <class Real>
 class Surroundings {
  public:
-  /// For particles of `mass` (kg), and steps as given.
-  Surroundings(std::shared_ptr<const Body> body, const Stepping& stepping, double mass);
+  /// For particles of `mass` (kg), and steps as given; `kept`: bytes that the kernel keeps.
+  Surroundings(std::shared_ptr<const Body> body, const Stepping& stepping, double mass,
+               std::size_t kept);
 
   /// Whether there is anything but muscles: forces of the world.
   bool any() const { return any_; }
@@ -53,7 +54,9 @@ class Surroundings {
   /// to be stored, in the kernel's order (N), or null.
   void begin(const Pose& pose, double time, BlockState<Real>& state, const Units& units,
              const VerletLists<Real>& lists, Points* forces);
-  kernel::Surroundings<Real> calls();
+  /// Steps or probes the pieces, and acts where they are touched.
+  void run(kernel::Work<Real> work, const kernel::Step<Real>& step, std::size_t begin,
+           std::size_t end);
   kernel::Loads<Real> loads() const { return loads_.arrays(); }
 
   void set_step(double step);  ///< s
@@ -86,8 +89,10 @@ class Surroundings {
     std::vector<Reaction> of_supports, of_loads;
   };
 
-  static void act(void* context, std::ptrdiff_t i, int count, Real* const acceleration[3],
-                  Real* held);
+  struct Rows;
+
+  static bool acts_on(const kernel::Step<Real>& step, std::size_t block);
+  void act(const kernel::Step<Real>& step, std::size_t piece, Rows& rows);
   void act_on(std::size_t k, Vec3& acceleration, Real& held);
   double mass_at(std::size_t k) const {
     return mass_of(*body_, static_cast<std::size_t>(id_[k]), mass_);
@@ -106,6 +111,7 @@ class Surroundings {
   std::shared_ptr<const World> world_;  ///< the body's, or an empty one
   Stepping stepping_;
   double mass_;
+  std::size_t kept_;
   bool any_, everywhere_;
   bool acts_in_space_;  ///< there is more than pins, supports, loads and muscles
   bool pins_on_bones_;
