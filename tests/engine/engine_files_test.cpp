@@ -9,6 +9,7 @@
 #include <sinew/engine/engine_files.h>
 #include <sinew/engine/engine_talk.h>
 #include <sinew/engine/engine_world.h>
+#include "support/temp_folder.h"
 #include "support/world.h"
 
 namespace sinew::engine_files_test {
@@ -18,14 +19,11 @@ constexpr double r = 0.01;
 class EngineFiles : public testing::Test {
  protected:
   EngineFiles() {
-    std::string name = (std::filesystem::temp_directory_path() / "sinew_engine_XXXXXX").string();
-    folder_.path = mkdtemp(name.data());
+    folder_.path = own_.path();
     settings_.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(1, 30)})};
     settings_.material.model = MaterialModel::bonded;
     simulation_.emplace(test::simulation_from(settings_, rest_, particles_, 1e-4));
   }
-  ~EngineFiles() override { std::filesystem::remove_all(folder_.path); }
-
   const Simulation& simulation() const { return *simulation_; }
   const std::vector<std::int32_t>& ids() const { return simulation().particles().id; }
 
@@ -50,6 +48,7 @@ class EngineFiles : public testing::Test {
     write_engine_moment(folder_, moment);
   }
 
+  TempFolder own_;
   EngineFolder folder_;
   Settings settings_ = test::box_scene(11);
   Points rest_ = test::fcc_box(5, 5, 11, r);

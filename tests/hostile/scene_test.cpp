@@ -13,8 +13,8 @@
 #include <sinew/settings/table.h>
 #include "hostile/scenes.h"
 #include "settings/small_scene.h"
-#include "settings/temp_folder.h"
 #include "support/scratch.h"
+#include "support/temp_folder.h"
 
 namespace sinew::scene_test {
 

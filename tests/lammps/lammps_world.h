@@ -12,26 +12,10 @@
 #include <sinew/core/file.h>
 #include <sinew/engine/engine_files.h>
 #include <sinew/world/world.h>
+#include "support/temp_folder.h"
 #include "support/world.h"
 
 namespace sinew::test {
-
-/// A folder of its own, removed at the end.
-class OwnFolder {
- public:
-  OwnFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sinew_lammps_XXXXXX").string();
-    if (mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~OwnFolder() { std::filesystem::remove_all(path_); }
-  OwnFolder(const OwnFolder&) = delete;
-  OwnFolder& operator=(const OwnFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline constexpr double bar_radius = 0.01;
 
@@ -160,7 +144,7 @@ class OnLammps {
   }
 
  private:
-  OwnFolder folder_;
+  TempFolder folder_;
   const Simulation& simulation_;
   std::vector<std::int32_t> ids_;
   std::int64_t end_;

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <sstream>
 #include <string>
 
 #include <sinew/core/text.h>
 #include <sinew/core/triangles.h>
 #include <sinew/settings/settings.h>
+#include "support/temp_folder.h"
 
 namespace sinew::mesh_files {
 
@@ -109,16 +109,7 @@ inline std::string stl_binary(const PolygonSoup& soup, std::string header = "mad
 /// A folder that goes away with the test.
 class Folder {
  public:
-  Folder() {
-    std::random_device random;
-    path_ = std::filesystem::temp_directory_path() / ("sinew-test-" + std::to_string(random()));
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string path(const std::string& name) const { return (path_ / name).string(); }
+  std::string path(const std::string& name) const { return (own_.path() / name).string(); }
 
   std::string file(const std::string& name, const std::string& content) const {
     std::filesystem::remove(path(name));  // to write over a file may wait for the disk
@@ -127,7 +118,7 @@ class Folder {
   }
 
  private:
-  std::filesystem::path path_;
+  TempFolder own_;
 };
 
 /// The mesh at `path`, with all settings as they are by default.

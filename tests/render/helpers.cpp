@@ -8,11 +8,6 @@
 
 namespace sinew {
 
-Folder::Folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "sinew-XXXXXX").string();
-  path_ = mkdtemp(name.data());
-}
-
 int run(const std::string& command, std::string* output) {
   std::FILE* pipe = popen(command.c_str(), "r");
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe))

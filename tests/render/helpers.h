@@ -11,21 +11,18 @@
 #include <sinew/core/error.h>
 #include <sinew/render/image.h>
 
+#include "support/temp_folder.h"
+
 namespace sinew {
 
 /// An empty folder that goes away with this value.
 class Folder {
  public:
-  Folder();
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  bool empty() const { return std::filesystem::is_empty(path_); }
+  std::string file(const std::string& name) const { return (own_.path() / name).string(); }
+  bool empty() const { return std::filesystem::is_empty(own_.path()); }
 
  private:
-  std::filesystem::path path_;
+  TempFolder own_;
 };
 
 /// Runs a command in the shell; its exit code, and what it printed in `output` when given.

@@ -9,8 +9,8 @@
 #include <sinew/run/figure_set.h>
 #include <sinew/run/simulate.h>
 #include <sinew/settings/read_scene.h>
-#include "settings/temp_folder.h"
 #include "support/expect_error.h"
+#include "support/temp_folder.h"
 
 namespace sinew::snapshots_test {
 

@@ -7,7 +7,7 @@
 #include <sinew/settings/read_scene.h>
 #include <algorithm>
 
-#include "settings/temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace sinew::check_test {
 

@@ -6,8 +6,8 @@
 #include <sinew/settings/write_scene.h>
 
 #include "settings/small_scene.h"
-#include "settings/temp_folder.h"
 #include "support/expect_error.h"
+#include "support/temp_folder.h"
 
 namespace sinew::machine_test {
 

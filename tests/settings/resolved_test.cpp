@@ -11,7 +11,7 @@
 #include <sinew/settings/write_scene.h>
 
 #include "settings/small_scene.h"
-#include "settings/temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace sinew::resolved_test {
 

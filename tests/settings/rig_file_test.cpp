@@ -8,7 +8,7 @@
 #include <sinew/settings/text_file.h>
 #include <sinew/settings/write_scene.h>
 
-#include "settings/temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace sinew::rig_file_test {
 

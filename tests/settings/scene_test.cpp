@@ -6,7 +6,7 @@
 #include <sinew/settings/read_scene.h>
 
 #include "settings/small_scene.h"
-#include "settings/temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace sinew::scene_test {
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,21 +12,21 @@
 
 #include <sinew/core/error.h>
 
+#include "support/temp_folder.h"
+
 namespace sinew {
 
 class Scratch : public testing::Test {
  protected:
-  Scratch() {
-    std::string name = (std::filesystem::temp_directory_path() / "sinew_io_XXXXXX").string();
-    folder = ::mkdtemp(name.data());
-  }
-  ~Scratch() override { std::filesystem::remove_all(folder); }
-
   std::size_t files() const {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
   }
 
-  std::filesystem::path folder;
+ private:
+  TempFolder own_;
+
+ protected:
+  std::filesystem::path folder = own_.path();
 };
 
 inline std::string text_of(const std::filesystem::path& path) {

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "settings/temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace sinew {
 

@@ -149,8 +149,7 @@ class FrameWriter {
   std::optional<Checksums> checksums_;
   std::vector<std::size_t> listed_;  ///< frames of each series whose checksums are
   std::atomic<int> written_ = 0;
-  bool one_by_one_;       ///< there is never more than one frame
-  Moved spare_;           ///< the last frame, then, whose memory is reused
+  Moved spare_;           ///< the last frame, whose memory is reused
   Background writer_{1};  ///< the last member: destroyed before the data it uses
 };
 
