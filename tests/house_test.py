@@ -12,7 +12,7 @@ from pathlib import Path
 
 ARROWS = {
     "core": set(), "settings": {"core"}, "mesh": {"core"}, "fill": {"core", "mesh"}, "rig": {"core"},
-    "metrics": {"core"}, "io": {"core", "rig"}, "render": {"core", "rig"},
+    "metrics": {"core"}, "io": {"core", "rig"}, "render": {"core"}, "display": {"core"},
     "material": {"core"}, "body": {"core", "rig", "material"}, "world": {"core", "rig", "material", "body"},
     "analysis": {"core", "rig", "material", "body", "world"}, "kernel": set(),
     "lists": {"core", "rig", "material", "body", "world", "kernel"},
@@ -23,7 +23,8 @@ ARROWS = {
     "scene": {"core", "settings", "mesh", "fill", "rig", "material", "body", "world", "analysis", "kernel", "groups",
               "stepping", "io"},
     "run": {"core", "settings", "mesh", "fill", "rig", "material", "body", "world", "stepping", "engine", "io", "scene",
-            "metrics", "render"},
+            "metrics"},
+    "figures": {"core", "settings", "rig", "material", "body", "world", "io", "scene", "metrics", "render", "run"},
     "study": {"core", "settings", "mesh", "io", "scene", "metrics", "run"},
 }
 # Rooms whose headers are not installed -> those that are.
@@ -37,7 +38,7 @@ HEAVY = {
     r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),
     r"nlohmann/json\.hpp": ("io", "metrics", "scene", "run", "study", "run/detail/run_log.h"),
     r"(libdeflate|lz4|expat)\.h": ("io",),
-    r"X11/": ("render",),
+    r"X11/": ("display",),
     r"(lammps|fmt)/": ("lammps", "lammps/lammps_headers.h"),
     r"mpi\.h": ("lammps",),
     r"CLI/": (),
@@ -50,7 +51,7 @@ HEAVY_TARGETS = {
     r"TBB::": ("core",),
     r"nlohmann_json::": ("io", "metrics", "scene", "run", "study"),
     r"^(deflate|lz4|expat)$": ("io",),
-    r"X11::": ("render",),
+    r"X11::": ("display",),
     r"LAMMPS::|fmt::": ("lammps",),
     r"CLI11::": (),
 }

@@ -9,9 +9,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/render/display.h>
 #include <sinew/run/run_folder.h>
-#include <sinew/run/scene_picture.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/groups.h>
@@ -22,7 +20,12 @@
 #include <sinew/scene/world.h>
 #include <sinew/settings/read_scene.h>
 #include "command/command.h"
+#include "command/drawing.h"
 #include "command/results.h"
+#if SINEW_DRAWS
+#include <sinew/display/display.h>
+#include <sinew/figures/scene_picture.h>
+#endif
 
 namespace {
 
@@ -207,11 +210,21 @@ void add_stepper(const StepperChoice& choice, Results& results) {
   results.add("instruction_set", kernel::name_of(choice.instructions));
 }
 
+#if SINEW_DRAWS
+void prepare_to_draw() { ensure_display(); }
+void draw(const Setup& setup, const Triangles& skin, const std::string& picture) {
+  write_scene_picture(scene_snapshot(setup, skin), {}, {}, picture);
+}
+#else
+void prepare_to_draw() { throw draws_nothing(); }
+void draw(const Setup&, const Triangles&, const std::string&) {}
+#endif
+
 Exit check(const std::string& scene, const std::string& picture, const Common& common) {
   refuse_mesh_as_scene(scene);
   if (!picture.empty()) {
     refuse_output(picture, {scene}, ".png");
-    ensure_display();
+    prepare_to_draw();
   }
   const Settings settings = with_fit(read_scene(scene, common.overrides));
   const Surface surface = read_mesh(settings);
@@ -251,7 +264,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   results.add("particle_steps_per_second", rate);
   if (!setup.load_steps) results.add("stepping_time", work / rate, "s");
   if (!picture.empty()) {
-    write_scene_picture(scene_snapshot(setup, skin), {}, {}, picture);
+    draw(setup, skin, picture);
     results.add("picture", picture);
   }
   results.add("warnings", warnings.size());

@@ -9,10 +9,10 @@
 #include <sinew/core/file.h>
 #include <sinew/core/system.h>
 #include <sinew/core/threads.h>
-#include <sinew/render/display.h>
-#include <sinew/run/figure_set.h>
+#include <sinew/display/display.h>
+#include <sinew/figures/figure_set.h>
+#include <sinew/figures/scene_picture.h>
 #include <sinew/run/run_record.h>
-#include <sinew/run/scene_picture.h>
 #include "command/child.h"
 #include "command/command.h"
 #include "command/progress.h"

@@ -8,6 +8,7 @@
 #include <sinew/run/run_folder.h>
 #include "command/child.h"
 #include "command/command.h"
+#include "command/drawing.h"
 #include "command/engine_process.h"
 #include "command/progress.h"
 #include "command/results.h"
@@ -87,7 +88,7 @@ class Parts {
   /// Where what people look at lies.
   void add_places(bool movie) {
     results_.add("report", folder_ + "/report.html");
-    results_.add_headline("pictures", folder_ + "/pictures/contact_sheet.png");
+    if (draws) results_.add_headline("pictures", folder_ + "/pictures/contact_sheet.png");
     if (movie) results_.add_headline("movie", folder_ + "/pictures/movie.mp4");
   }
 
@@ -129,6 +130,12 @@ class Parts {
 /// The report includes the pictures, so they are made first; it does not wait for the movie, which
 /// takes the time that they leave.
 Exit show(const Options& options, const Common& common, const std::string& folder, Parts& parts) {
+  if (!draws) {
+    say(common, "sinew: without pictures: this sinew was built without VTK");
+    const Exit exit = parts.run("measure", "measuring", measure_words(options, common, folder));
+    if (exit == Exit::done) parts.add_places(false);
+    return exit;
+  }
   StageProgress progress("movie", progress_style(common.quiet));  // counts from here
   std::optional<Helper> movie;
   if (!options.no_movie && !stop_requested()) {

@@ -14,6 +14,7 @@
 
 #include <sinew/core/text.h>
 #include "command/command.h"
+#include "command/drawing.h"
 #include "command/results.h"
 
 namespace {
@@ -65,6 +66,7 @@ std::string name_of(const std::string& word) {
 
 /// Returns only by throwing.
 Exit become(const std::string& name, const std::vector<char*>& rest) {
+  if (name == "render" && !draws) throw draws_nothing();
   const auto program = this_program().parent_path() / ("sinew-" + name);
   std::string path = program.string();
   std::vector<char*> arguments = {path.data()};

@@ -18,8 +18,8 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
+#include <sinew/display/display.h>
 #include <sinew/io/paraview/view_state.h>
-#include <sinew/render/display.h>
 #include <sinew/run/run_folder.h>
 #include "command/command.h"
 

@@ -23,7 +23,6 @@
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/table.h>
-#include <sinew/render/figure.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/export_run.h>
@@ -38,4 +37,7 @@
 #include <sinew/study/compare_runs.h>
 #include <sinew/study/study.h>
 #include <sinew/study/study_files.h>
+#if __has_include(<sinew/render/figure.h>)  // without VTK there is none
+#include <sinew/render/figure.h>
+#endif
 #include <sinew/world/world.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/render/display.h>
+#include <sinew/display/display.h>
 
 #include <unistd.h>
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include <sinew/core/error.h>
-#include <sinew/render/display.h>
+#include <sinew/display/display.h>
 
 int main(int argc, char** argv) {
   const std::string_view mode = argc > 1 ? argv[1] : "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws a snapshot. Needs an X display (<sinew/render/display.h>).
+// Draws a snapshot. Needs an X display (<sinew/display/display.h>).
 //
 //     Painter painter(rest_surface, scale);
 //     const Image image = painter.draw(snapshot, {.view = View::particles, .camera = camera});

@@ -37,7 +37,7 @@ std::vector<DrawnBond> DrawnBonds::at(std::size_t index) const {
     for (std::size_t k = 0; k < data.cells(); ++k) {
       const std::array ends{data.connectivity[2 * k], data.connectivity[2 * k + 1]};
       if (broken[k] == 0)
-        bonds.push_back({ends, {data.points[ends[0]], data.points[ends[1]], values[k]}});
+        bonds.push_back({ends, data.points[ends[0]], data.points[ends[1]], values[k]});
     }
     return bonds;
   } catch (const Error& error) {

@@ -2,21 +2,22 @@
 // The bonds of a run's frames as lines to be drawn, in the colors of one of their quantities.
 //
 //     const DrawnBonds bonds(run, "strain");
-//     for (const DrawnBond& bond : bonds.at(0)) snapshot.lines.push_back(bond.line);
+//     for (const DrawnBond& bond : bonds.at(0)) lines.push_back({bond.from, bond.to, bond.value});
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include <sinew/render/snapshot.h>
+#include <sinew/core/vector.h>
 #include <sinew/run/run_files.h>
 
 namespace sinew {
 
 struct DrawnBond {
-  std::array<int, 2> ends{};  ///< particles in the written order
-  SnapshotLine line;
+  std::array<int, 2> ends{};                    ///< particles in the written order
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< m
+  double value = 0;                             ///< of the quantity
 };
 
 class DrawnBonds {

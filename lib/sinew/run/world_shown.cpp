@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include <sinew/core/dataset.h>
-#include <sinew/run/scene_picture.h>
 
 namespace sinew {
 namespace {
@@ -44,7 +43,7 @@ void add_forces(Playback& playback, const RunFiles& run,
   const ShownForces forces(run);
   for (PlaybackFrame& frame : playback.frames) {
     playback.is_load.clear();
-    for (const SnapshotForce& one : forces.at(frame_of(frame.frame))) {
+    for (const ShownForce& one : forces.at(frame_of(frame.frame))) {
       playback.is_load.push_back(one.is_load);
       for (const Vec3& end : {one.from, Vec3(one.from + one.along)})
         for (const double coordinate : end) frame.forces.push_back(static_cast<float>(coordinate));
@@ -65,8 +64,8 @@ ShownForces::ShownForces(const RunFiles& run) : run_(&run) {
   if (hardest > 0) scale_ = longest * size / hardest;
 }
 
-std::vector<SnapshotForce> ShownForces::at(std::size_t frame) const {
-  std::vector<SnapshotForce> shown;
+std::vector<ShownForce> ShownForces::at(std::size_t frame) const {
+  std::vector<ShownForce> shown;
   if (frame >= run_->support_rows.size()) return shown;
   const Dataset data =
       read_vtu(run_->folder.path / run_->support_rows[frame].file, {"force", "load"});
@@ -101,6 +100,12 @@ std::vector<std::size_t> held_in_frames(const RunFiles& run) {
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
   return held;
+}
+
+Box obstacle_space(const Box& body) {
+  constexpr double around = 0.15;  // of the diagonal: enough to recognize what a body touches
+  const Vec3 more = Vec3::Constant(around * body.diagonal().norm());
+  return Box(body.min() - more, body.max() + more);
 }
 
 void show_world(Playback& playback, const RunFiles& run,

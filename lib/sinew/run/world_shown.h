@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <sinew/metrics/report/playback.h>
-#include <sinew/render/snapshot.h>
 #include <sinew/run/run_files.h>
 
 namespace sinew {
@@ -24,6 +23,12 @@ std::ptrdiff_t place_in_frames(const RunFiles& run, std::size_t particle);
 /// Indices of the held particles in the frames, ascending.
 std::vector<std::size_t> held_in_frames(const RunFiles& run);
 
+/// The force of a support or a load on the body.
+struct ShownForce {
+  Vec3 from = Vec3::Zero(), along = Vec3::Zero();  ///< m; `along` is the arrow as drawn
+  bool is_load = false;                            ///< else of a support
+};
+
 /// The forces of supports and loads on the body, as arrows; the longest at any time is a fifth of
 /// the body.
 class ShownForces {
@@ -32,12 +37,16 @@ class ShownForces {
   explicit ShownForces(const RunFiles& run);
 
   /// At a frame of the run; none where it has neither.
-  std::vector<SnapshotForce> at(std::size_t frame) const;
+  std::vector<ShownForce> at(std::size_t frame) const;
 
  private:
   const RunFiles* run_;
   double scale_ = 0;  ///< m/N
 };
+
+/// The part of the obstacles that is drawn: what lies around the body, `body` enlarged (m). Planes
+/// have no end, and what is far away would make the body small.
+Box obstacle_space(const Box& body);
 
 /// Marks the held particles of a playback, names its materials and adds forces and obstacles to its
 /// frames. `frame_of`: the run's frame of a playback's. Throws bad input, naming the file, for

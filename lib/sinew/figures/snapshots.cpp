@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/run/snapshots.h>
+#include <sinew/figures/snapshots.h>
 
 #include <algorithm>
 #include <array>
@@ -12,11 +12,11 @@
 #include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/figures/scene_picture.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
-#include <sinew/run/scene_picture.h>
 
 namespace sinew {
 
@@ -38,6 +38,12 @@ Snapshot snapshot_of(const RunFiles& run, RunFrame frame, double angle) {
 }
 
 namespace {
+
+std::vector<SnapshotForce> drawn(const std::vector<ShownForce>& forces) {
+  std::vector<SnapshotForce> arrows;
+  for (const ShownForce& one : forces) arrows.push_back({one.from, one.along, one.is_load});
+  return arrows;
+}
 
 struct MeasuredArray {
   std::string_view name, unit;
@@ -224,7 +230,7 @@ DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,
                                       const DrawnView& drawn) const {
   if (!drawn.bonds) return DrawnValues::range_of(drawn.values.at(index, frame));
   std::vector<double> values;
-  for (const DrawnBond& bond : drawn.bonds->at(index)) values.push_back(bond.line.value);
+  for (const DrawnBond& bond : drawn.bonds->at(index)) values.push_back(bond.value);
   return DrawnValues::range_of(std::move(values));
 }
 
@@ -255,7 +261,7 @@ void DrawnRun::read_overview() {
   }
   for (std::size_t i = 0; i < run_.support_rows.size(); ++i) {
     Snapshot machine;
-    machine.forces = forces_->at(i);
+    machine.forces = drawn(forces_->at(i));
     extend(machine);
   }
 }
@@ -350,7 +356,7 @@ void DrawnRun::add_traces(Snapshot& snapshot, std::size_t index) const {
 
 void DrawnRun::add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const {
   for (const DrawnBond& bond : drawn.bonds->at(index)) {
-    snapshot.lines.push_back(bond.line);
+    snapshot.lines.push_back({bond.from, bond.to, bond.value});
     if (!is_selected(static_cast<std::size_t>(bond.ends[0])) &&
         !is_selected(static_cast<std::size_t>(bond.ends[1])))
       snapshot.lines.back().value = std::numeric_limits<double>::quiet_NaN();
@@ -365,7 +371,7 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   snapshot.marks = marks_;
   show_selected(snapshot);
   add_obstacles(snapshot, index);
-  snapshot.forces = forces_->at(index);
+  snapshot.forces = drawn(forces_->at(index));
   add_traces(snapshot, index);
   if (drawn.bonds) add_bonds(snapshot, index, drawn);
   if (drawn.preset.cut_open) cut_open(snapshot);

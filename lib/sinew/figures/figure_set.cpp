@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/run/figure_set.h>
+#include <sinew/figures/figure_set.h>
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What pictures show of a run, from the files that a run has left.
-#include <sinew/run/snapshots.h>
+#include <sinew/figures/snapshots.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include <sinew/run/figure_set.h>
+#include <sinew/figures/figure_set.h>
 #include <sinew/run/simulate.h>
 #include <sinew/settings/read_scene.h>
 #include "support/expect_error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/run/view_presets.h>
+#include <sinew/figures/view_presets.h>
 
 #include <algorithm>
 #include <array>

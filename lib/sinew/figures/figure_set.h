@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include <sinew/figures/snapshots.h>
 #include <sinew/render/figure.h>
 #include <sinew/render/movie.h>
-#include <sinew/run/snapshots.h>
 
 namespace sinew {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/run/scene_picture.h>
+#include <sinew/figures/scene_picture.h>
 
 #include <algorithm>
 #include <limits>
@@ -97,12 +97,6 @@ Triangles obstacles_at_start(const Setup& setup) {
 }
 
 }  // namespace
-
-Box obstacle_space(const Box& body) {
-  constexpr double around = 0.15;  // of the diagonal: enough to recognize what a body touches
-  const Vec3 more = Vec3::Constant(around * body.diagonal().norm());
-  return Box(body.min() - more, body.max() + more);
-}
 
 Snapshot scene_snapshot(const Setup& setup, const Triangles& surface) {
   const Body& body = setup.body;

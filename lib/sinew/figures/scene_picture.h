@@ -14,10 +14,6 @@
 
 namespace sinew {
 
-/// The part of the obstacles that is drawn: what lies around the body, `body` enlarged (m). Planes
-/// have no end, and what is far away would make the body small.
-Box obstacle_space(const Box& body);
-
 /// The scene at rest, its obstacles where they are at the start.
 Snapshot scene_snapshot(const Setup& setup, const Triangles& surface);
 

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
+#include <sinew/figures/view_presets.h>
 #include <sinew/metrics/rest_body.h>
 #include <sinew/render/snapshot.h>
 #include <sinew/run/drawn_bonds.h>
 #include <sinew/run/run_files.h>
-#include <sinew/run/view_presets.h>
 #include <sinew/run/world_shown.h>
 
 namespace sinew {
