@@ -39,7 +39,7 @@ Snapshot snapshot_of(const RunFiles& run, RunFrame frame, double angle) {
 
 namespace {
 
-std::vector<SnapshotForce> drawn(const std::vector<ShownForce>& forces) {
+std::vector<SnapshotForce> arrows_of(const std::vector<ShownForce>& forces) {
   std::vector<SnapshotForce> arrows;
   for (const ShownForce& one : forces) arrows.push_back({one.from, one.along, one.is_load});
   return arrows;
@@ -261,7 +261,7 @@ void DrawnRun::read_overview() {
   }
   for (std::size_t i = 0; i < run_.support_rows.size(); ++i) {
     Snapshot machine;
-    machine.forces = drawn(forces_->at(i));
+    machine.forces = arrows_of(forces_->at(i));
     extend(machine);
   }
 }
@@ -371,7 +371,7 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   snapshot.marks = marks_;
   show_selected(snapshot);
   add_obstacles(snapshot, index);
-  snapshot.forces = drawn(forces_->at(index));
+  snapshot.forces = arrows_of(forces_->at(index));
   add_traces(snapshot, index);
   if (drawn.bonds) add_bonds(snapshot, index, drawn);
   if (drawn.preset.cut_open) cut_open(snapshot);
