@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include <sinew/rig/motion.h>
 #include <sinew/stepping/simulation.h>
 
 namespace sinew::bench {

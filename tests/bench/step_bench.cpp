@@ -19,6 +19,7 @@
 #include <sinew/core/hash.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
+#include <sinew/lists/list_counts.h>
 
 #include "bench/all_pairs.h"
 #include "bench/limits.h"
