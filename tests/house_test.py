@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 ARROWS = {
-    "core": set(), "settings": {"core"}, "mesh": {"core"}, "fill": {"core", "mesh"}, "rig": {"core"},
+    "core": set(), "settings": {"core"}, "mesh": {"core"}, "repair": {"core", "mesh"}, "fill": {"core", "mesh"}, "rig": {"core"},
     "metrics": {"core"}, "io": {"core", "rig"}, "render": {"core"}, "display": {"core"},
     "material": {"core"}, "body": {"core", "rig", "material"}, "world": {"core", "rig", "material", "body"},
     "analysis": {"core", "rig", "material", "body", "world"}, "kernel": set(),
@@ -20,19 +20,19 @@ ARROWS = {
     "stepping": {"core", "rig", "material", "body", "world", "analysis", "kernel", "lists", "groups"},
     "engine": {"core", "rig", "material", "body", "world"},
     "lammps": {"core", "rig", "material", "body", "world", "engine", "io"},
-    "scene": {"core", "settings", "mesh", "fill", "rig", "material", "body", "world", "analysis", "kernel", "groups",
+    "scene": {"core", "settings", "mesh", "repair", "fill", "rig", "material", "body", "world", "analysis", "kernel", "groups",
               "stepping", "io"},
-    "run": {"core", "settings", "mesh", "fill", "rig", "material", "body", "world", "stepping", "engine", "io", "scene",
+    "run": {"core", "settings", "mesh", "repair", "fill", "rig", "material", "body", "world", "stepping", "engine", "io", "scene",
             "metrics"},
     "figures": {"core", "settings", "rig", "material", "body", "world", "io", "scene", "metrics", "render", "run"},
-    "study": {"core", "settings", "mesh", "io", "scene", "metrics", "run"},
+    "study": {"core", "settings", "mesh", "repair", "io", "scene", "metrics", "run"},
 }
 # Rooms whose headers are not installed -> those that are.
 INTERNAL = {"kernel": ("instruction_set.h",), "lists": ("list_counts.h",), "lammps": (),
             "groups": ("bone_parts.h", "kept_free.h", "make_grouping.h", "static_groups.h")}
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
-    r"(CGAL|boost)/": ("mesh", "fill"),
+    r"(CGAL|boost)/": ("mesh", "repair", "fill"),
     r"vtk\w*\.h": ("render",),
     r"yaml-cpp/": ("settings",),
     r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),

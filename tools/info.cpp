@@ -11,7 +11,7 @@
 #include <sinew/fill/fill_warnings.h>
 #include <sinew/io/checksums.h>
 #include <sinew/io/single_files.h>
-#include <sinew/mesh/diagnosis.h>
+#include <sinew/repair/diagnosis.h>
 #include <sinew/rig/motion.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>

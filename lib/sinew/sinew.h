@@ -18,11 +18,11 @@
 #include <sinew/io/single_files.h>
 #include <sinew/io/vtu.h>
 #include <sinew/material/material.h>
-#include <sinew/mesh/diagnosis.h>
-#include <sinew/mesh/read_surface.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/table.h>
+#include <sinew/repair/diagnosis.h>
+#include <sinew/repair/read_surface.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/export_run.h>

@@ -6,7 +6,7 @@
 #include <sinew/fill/filled_sites.h>
 #include <sinew/fill/runs.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 #include "mesh/shapes.h"
 
 namespace sinew::broken_test {

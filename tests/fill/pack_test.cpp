@@ -13,7 +13,7 @@
 #include <sinew/fill/detail/verify.h>
 #include <sinew/fill/lattice.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 #include "mesh/mesh_files.h"
 #include "mesh/shapes.h"
 

@@ -4,7 +4,7 @@
 
 #include <sinew/core/particles.h>
 #include <sinew/fill/pack.h>
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 #include "mesh/mesh_files.h"
 
 namespace sinew::paper_box_test {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include <sinew/core/error.h>
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 #include "mesh/mesh_files.h"
 #include "mesh/shapes.h"
 #include "mesh/surface_laws.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <thread>
 
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 #include "mesh/shapes.h"
 #include "support/expect_error.h"
 

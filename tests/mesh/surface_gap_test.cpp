@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include <sinew/core/parallel.h>
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 #include "mesh/shapes.h"
 #include "support/expect_error.h"
 

@@ -6,10 +6,10 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/mesh/curve_skeleton.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/solids.h>
 #include <sinew/mesh/winding.h>
+#include <sinew/repair/curve_skeleton.h>
 #include <sinew/rig/binding.h>
 #include <sinew/rig/limbs.h>
 #include <sinew/rig/motion.h>

@@ -10,7 +10,7 @@
 #include <sinew/mesh/border.h>
 #include <sinew/mesh/detail/orient.h>
 #include <sinew/mesh/detail/triangulate.h>
-#include <sinew/mesh/self_intersections.h>
+#include <sinew/mesh/face_queries.h>
 #include <sinew/mesh/surface.h>
 
 namespace sinew {

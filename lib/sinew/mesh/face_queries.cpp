@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <sinew/core/error.h>
-#include <sinew/mesh/self_intersections.h>
 #include <sinew/mesh/surface.h>
 
 namespace sinew {
@@ -194,6 +193,19 @@ std::optional<double> thinnest_part(const Triangles& surface) {
       found.begin() + static_cast<std::ptrdiff_t>(thin_share * static_cast<double>(found.size()));
   std::nth_element(found.begin(), rank, found.end());
   return *rank;
+}
+
+std::vector<bool> flat_faces(const Triangles& surface) {
+  const auto point = [&](int i) {
+    const Vec3& p = surface.points[i];
+    return Kernel::Point_3(p.x(), p.y(), p.z());
+  };
+  std::vector<bool> flat(surface.faces.size());
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    const auto& [a, b, c] = surface.faces[i];
+    flat[i] = CGAL::collinear(point(a), point(b), point(c));
+  }
+  return flat;
 }
 
 }  // namespace sinew

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <sinew/core/triangles.h>
 
@@ -39,5 +40,8 @@ class NearestFace {
 /// to where it has left all parts of the body on its path; points inside another part are not skin.
 /// Nothing where fewer than half of the rays leave: a sheet has no inside.
 std::optional<double> thinnest_part(const Triangles& surface);
+
+/// Per face, whether its corners lie on one line: exact, by CGAL's predicates.
+std::vector<bool> flat_faces(const Triangles& surface);
 
 }  // namespace sinew

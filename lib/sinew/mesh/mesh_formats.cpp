@@ -106,4 +106,8 @@ PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> m
   throw unknown_format(path, all);
 }
 
+PolygonSoup read_obj_look(const std::string& path, PolygonLook& look) {
+  return read_obj(open_mesh(path), look);
+}
+
 }  // namespace sinew

@@ -37,4 +37,10 @@ bool names_mesh(const std::string& path, std::span<const MeshFormat> more = {});
 /// the first words identify another format than the extension.
 PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more = {});
 
+/// A Wavefront OBJ with what else describes its surface. Throws Error (bad input), naming the file.
+PolygonSoup read_obj_look(const std::string& path, PolygonLook& look);
+/// The materials of an MTL file beside an OBJ: color (Kd), opacity (d, Tr) and texture (map_Kd).
+/// None where it cannot be read; what is no number is left out.
+std::vector<SurfaceLook::Material> read_mtl(const std::string& path);
+
 }  // namespace sinew

@@ -7,13 +7,13 @@
 #include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
 #include <sinew/io/series.h>
-#include <sinew/mesh/self_intersections.h>
 #include <sinew/mesh/surface_distance.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/metrics/report/charts.h>
 #include <sinew/metrics/summary.h>
 #include <sinew/metrics/table.h>
+#include <sinew/repair/self_intersections.h>
 #include <sinew/run/report_input.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/world_shown.h>

@@ -17,8 +17,8 @@
 #include <sinew/io/gltf/geometry.h>
 #include <sinew/io/gltf/look.h>
 #include <sinew/io/vtk/vtk_mesh.h>
-#include <sinew/mesh/read_surface.h>
 #include <sinew/mesh/winding.h>
+#include <sinew/repair/read_surface.h>
 #include <sinew/settings/row.h>
 #include <sinew/settings/table.h>
 

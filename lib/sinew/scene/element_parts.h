@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <sinew/core/volume_mesh.h>
-#include <sinew/mesh/volume_meshing.h>
+#include <sinew/repair/volume_meshing.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {

@@ -9,7 +9,7 @@
 
 #include <sinew/core/text.h>
 #include <sinew/fill/fill_limits.h>
-#include <sinew/mesh/volume_meshing.h>
+#include <sinew/repair/volume_meshing.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/element_parts.h>
 #include <sinew/scene/steps.h>

@@ -16,9 +16,9 @@
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/pack.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/mesh/curve_skeleton.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/winding.h>
+#include <sinew/repair/curve_skeleton.h>
 #include <sinew/rig/limbs.h>
 #include <sinew/scene/body.h>
 

@@ -10,9 +10,9 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/mesh/repair.h>
 #include <sinew/mesh/solids.h>
 #include <sinew/mesh/winding.h>
+#include <sinew/repair/repair.h>
 #include <sinew/rig/fit.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>

@@ -9,7 +9,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>

@@ -172,7 +172,7 @@ void check_variant(const Material& now, const Material& next) {
   if (now.model != next.model || now.cohesion != next.cohesion || now.pair.r != next.pair.r ||
       now.pair.b != next.pair.b || now.mass != next.mass || (a.second > 0) != (b.second > 0) ||
       (a.breaking_strain > 0) != (b.breaking_strain > 0) ||
-      (a.yield_shear > 0) != (b.yield_shear > 0))
+      (a.yield_shear > 0) != (b.yield_shear > 0) || a.branch_count() != b.branch_count())
     throw bad_input("the material has another model, or other particles, than the body",
                     "begin a simulation of that body");
 }

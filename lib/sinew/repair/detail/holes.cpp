@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/detail/holes.h>
+#include <sinew/repair/detail/holes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include <sinew/mesh/self_intersections.h>
 #include <sinew/mesh/surface.h>
+#include <sinew/repair/self_intersections.h>
 
 namespace sinew {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/repair.h>
+#include <sinew/repair/repair.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -12,8 +12,8 @@
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/border.h>
-#include <sinew/mesh/detail/holes.h>
 #include <sinew/mesh/surface.h>
+#include <sinew/repair/detail/holes.h>
 
 namespace sinew {
 

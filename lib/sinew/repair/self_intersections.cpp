@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/self_intersections.h>
+#include <sinew/repair/self_intersections.h>
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -175,19 +175,6 @@ class Search {
 SelfIntersections self_intersections(const Triangles& surface, std::size_t most) {
   const PairTest test(surface.points);
   return Search(surface, test, most).run();
-}
-
-std::vector<bool> flat_faces(const Triangles& surface) {
-  const auto point = [&](int i) {
-    const Vec3& p = surface.points[i];
-    return Point(p.x(), p.y(), p.z());
-  };
-  std::vector<bool> flat(surface.faces.size());
-  for (std::size_t i = 0; i < flat.size(); ++i) {
-    const auto& [a, b, c] = surface.faces[i];
-    flat[i] = CGAL::collinear(point(a), point(b), point(c));
-  }
-  return flat;
 }
 
 }  // namespace sinew

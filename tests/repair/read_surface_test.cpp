@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 
 #include <gtest/gtest.h>
 

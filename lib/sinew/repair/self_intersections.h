@@ -26,7 +26,4 @@ struct SelfIntersections {
 /// between the side's ends, the other counts as two faces that share that point.
 SelfIntersections self_intersections(const Triangles& surface, std::size_t most = 100000);
 
-/// Per face, whether its corners lie on one line: exact, by CGAL's predicates.
-std::vector<bool> flat_faces(const Triangles& surface);
-
 }  // namespace sinew

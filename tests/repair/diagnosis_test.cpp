@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/diagnosis.h>
+#include <sinew/repair/diagnosis.h>
 
 #include <gtest/gtest.h>
 

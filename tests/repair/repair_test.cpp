@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/repair.h>
+#include <sinew/repair/repair.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/volume_meshing.h>
+#include <sinew/repair/volume_meshing.h>
 
 #include <gtest/gtest.h>
 

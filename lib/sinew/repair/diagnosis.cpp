@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/diagnosis.h>
+#include <sinew/repair/diagnosis.h>
 
 #include <algorithm>
 #include <tuple>
@@ -7,7 +7,7 @@
 
 #include <sinew/mesh/border.h>
 #include <sinew/mesh/face_queries.h>
-#include <sinew/mesh/self_intersections.h>
+#include <sinew/repair/self_intersections.h>
 
 namespace sinew {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/text.h>
-#include <sinew/mesh/detail/readers/mesh_readers.h>
+#include <sinew/mesh/mesh_formats.h>
 
 namespace sinew {
 namespace {
@@ -95,10 +95,6 @@ void add_face(const std::array<Vec3, 3>& places, const PolygonsByPlace& polygons
   look.normal_corners.push_back(picked(file.normal_corners, polygon, corners, look.normals.size()));
   look.layer_corners.push_back(picked(file.layer_corners, polygon, corners, elements(look.layers)));
   look.part.push_back(polygon < 0 ? -1 : file.look.part[static_cast<std::size_t>(polygon)]);
-}
-
-PolygonSoup read_obj_look(const std::string& path, PolygonLook& look) {
-  return read_obj(open_mesh(path), look);
 }
 
 /// The reader of a path's look; none where its format has none.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/curve_skeleton.h>
+#include <sinew/repair/curve_skeleton.h>
 
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -22,8 +22,8 @@
 
 #include <sinew/core/error.h>
 #include <sinew/mesh/face_queries.h>
-#include <sinew/mesh/repair.h>
 #include <sinew/mesh/surface.h>
+#include <sinew/repair/repair.h>
 
 namespace sinew {
 

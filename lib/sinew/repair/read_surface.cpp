@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/read_surface.h>
+#include <sinew/repair/read_surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/mesh/repair.h>
+#include <sinew/repair/repair.h>
 
 namespace sinew {
 

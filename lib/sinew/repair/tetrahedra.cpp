@@ -10,8 +10,8 @@
 #include <CGAL/make_mesh_3.h>
 
 #include <sinew/core/error.h>
-#include <sinew/mesh/self_intersections.h>
-#include <sinew/mesh/volume_meshing.h>
+#include <sinew/repair/self_intersections.h>
+#include <sinew/repair/volume_meshing.h>
 
 #include <unordered_map>
 #include <utility>
