@@ -38,6 +38,7 @@ class Live(unittest.TestCase):
         # ParaView begins Open MPI, which removes the folder of its sessions when it ends, also from under
         # another that begins.
         os.environ["OMPI_MCA_orte_tmpdir_base"] = self.scratch.name
+        os.environ["PMIX_MCA_gds"] = "hash"  # the store in shared memory fails where others start at the same time
         self.run_folder = Path(self.scratch.name) / "a run"
         self.addCleanup(self.scratch.cleanup)
 

@@ -45,6 +45,7 @@ class ViewPreset(unittest.TestCase):
         # ParaView begins Open MPI, which removes the folder of its sessions when it ends, also from under
         # another that begins.
         os.environ["OMPI_MCA_orte_tmpdir_base"] = cls.scratch.name
+        os.environ["PMIX_MCA_gds"] = "hash"  # the store in shared memory fails where others start at the same time
         cls.run_folder = Path(cls.scratch.name) / "a run"
         cls.bonded = Path(cls.scratch.name) / "bonded"
         for folder, more in ((cls.run_folder, []), (cls.bonded, ["--set", "material.model=bonded"])):

@@ -26,6 +26,7 @@ class View(unittest.TestCase):
         # ParaView begins Open MPI, which removes the folder of its sessions when it ends, also from under
         # another that begins.
         os.environ["OMPI_MCA_orte_tmpdir_base"] = cls.scratch.name
+        os.environ["PMIX_MCA_gds"] = "hash"  # the store in shared memory fails where others start at the same time
         cls.one_run = Path(cls.scratch.name) / "a run"
         done = subprocess.run([BIN / "sinew", "simulate", "--quiet", SOURCE / "configs/box_bend.yaml", "-o", cls.one_run,
                                *SMALL], capture_output=True, text=True, timeout=100)
