@@ -11,6 +11,7 @@
 #include <sinew/settings/write_scene.h>
 
 #include "settings/small_scene.h"
+#include "support/expect_error.h"
 #include "support/temp_folder.h"
 
 namespace sinew::resolved_test {
@@ -278,6 +279,16 @@ TEST(ResolvedScene, OfManyKeysCanBeReadAgain) {
   const Settings settings = scene_from_text(text, "scene", "");
   const std::string resolved = readable_scene(settings, "out/scene.yaml");
   EXPECT_EQ(scene_from_text(resolved, "scene", "out").tracks[59].keys[999].twist, 999 % 7);
+}
+
+/// A run whose scene nobody could read would be lost.
+TEST(ResolvedScene, ThatIsTooLongIsRefusedBeforeTheRun) {
+  Settings settings = scene_from_text(small_scene, "scene", "");
+  settings.tracks.resize(1);
+  settings.tracks[0].bone = "lower";
+  settings.tracks[0].keys.resize(500'000);
+  test::expect_bad_input([&] { readable_scene(settings, "out/scene.yaml"); },
+                         {"could not be read again", "over 67108864; give it fewer bones or keys"});
 }
 
 TEST(ResolvedScene, IsTheSameWhenResolvedAgain) {

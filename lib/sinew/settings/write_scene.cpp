@@ -96,13 +96,22 @@ std::string resolved_scene(const Settings& settings, const std::filesystem::path
 }
 
 std::string readable_scene(const Settings& settings, const std::filesystem::path& path) {
+  // Longer ones are not tried, which takes 25 times their bytes: only their length tells them
+  // apart.
+  constexpr std::size_t tried = std::size_t{8} << 20;  // bytes
   std::string text = resolved_scene(settings, path.parent_path());
+  const auto refused = [](const std::string& why) {
+    return bad_input(
+        "the scene, with all its values written out, could not be read again (" + why + ")",
+        "give it fewer bones or keys");
+  };
+  if (text.size() > longest_scene)
+    throw refused(std::to_string(text.size()) + " bytes, over " + std::to_string(longest_scene));
+  if (text.size() > tried) return text;
   try {
     scene_from_text(text, path.string(), path.parent_path());
   } catch (const Error& error) {
-    throw bad_input("the scene, with all its values written out, could not be read again (" +
-                        std::string(error.what()) + ")",
-                    "give it fewer bones or keys");
+    throw refused(error.what());
   }
   return text;
 }
