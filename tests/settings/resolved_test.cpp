@@ -288,7 +288,7 @@ TEST(ResolvedScene, ThatIsTooLongIsRefusedBeforeTheRun) {
   settings.tracks[0].bone = "lower";
   settings.tracks[0].keys.resize(500'000);
   test::expect_bad_input([&] { readable_scene(settings, "out/scene.yaml"); },
-                         {"could not be read again", "over 67108864; give it fewer bones or keys"});
+                         {"could not be read again", "over 67108864); give it fewer bones or keys"});
 }
 
 TEST(ResolvedScene, IsTheSameWhenResolvedAgain) {
