@@ -24,11 +24,11 @@ struct HeldBond {
   double force;  ///< N, positive repels; 0 once broken
 };
 
-double factor_of(const PairLaw& law, std::size_t i, std::uint32_t j) {
+double factor_of(const ForcesOfPairs& law, std::size_t i, std::uint32_t j) {
   return law.factor ? law.factor(static_cast<std::uint32_t>(i), j) : 1;
 }
 
-double force_of(const PairLaw& law, bool nearest, double d, double rest) {
+double force_of(const ForcesOfPairs& law, bool nearest, double d, double rest) {
   if (!nearest) return law.second(d, rest);
   if (law.bond) return law.bond(d, rest);
   return law.force ? law.force(d) : not_measured;
@@ -86,7 +86,7 @@ void find_neighbors(const Points& now, const CellGrid& grid, double range, std::
 }
 
 bool knows_forces(const RestBody& rest, const FrameState& state) {
-  const PairLaw& law = rest.law;
+  const ForcesOfPairs& law = rest.law;
   return law.force && !(law.bonds_change && state.bond_rest.empty()) &&
          !(law.has_muscles && state.muscle_stress.empty());
 }

@@ -144,7 +144,7 @@ NeighborLists second_neighbors(const RestShape& shape, double range) {
 }
 
 /// Of springs whose stiffness differs: sum k l^2 over a particle's bonds, over that of one inside.
-std::vector<double> stiffness_shares(const RestBody& body, const PairLaw& law) {
+std::vector<double> stiffness_shares(const RestBody& body, const ForcesOfPairs& law) {
   if (!law.factor || !law.second) return {};
   const double k = law.bond(0, 1), second = law.second(0, 1);  // of springs with f = k (l - d)
   const double inside =

@@ -20,7 +20,7 @@
 namespace sinew {
 
 /// The forces between particles as functions of their distances. Called from several threads.
-struct PairLaw {
+struct ForcesOfPairs {
   /// Force between two particles at a distance (m), N, positive repels; empty: not known.
   std::function<double(double)> force;
   /// The same between neighbors at rest, from distance and rest distance; empty: as `force`.
@@ -49,7 +49,7 @@ struct RestInput {
   double radius = 0;             ///< of a particle, r, m
   double interaction_range = 0;  ///< b, m: pairs farther apart do not interact
   Energies start;                ///< of the first frame, from which the energy balance is taken
-  PairLaw law;
+  ForcesOfPairs law;
   double mass = not_measured;        ///< of a particle, kg
   std::vector<double> density = {};  ///< n; factors on it; or empty
   std::vector<double> weight;        ///< n; the weight of that bone in each particle; or empty
@@ -81,7 +81,7 @@ struct RestBody {
   std::vector<Section> sections;
   double radius = 0, interaction_range = 0;  ///< m
   Energies start;
-  PairLaw law;
+  ForcesOfPairs law;
   double mass = not_measured;   ///< of a particle, kg
   std::vector<double> density;  ///< n; factors on it; or empty
 

@@ -323,9 +323,9 @@ void FramesInOrder::begin() {
                                [&run = run_, index = index_++] { return read_frame(run, index); }));
 }
 
-PairLaw pair_law(const Material& material, const BondFactors& factors) {
+ForcesOfPairs pair_law(const Material& material, const BondFactors& factors) {
   const ForceLaw& law = law_of(material);
-  PairLaw measured;
+  ForcesOfPairs measured;
   measured.bonds_change = bonds_change(material);
   if (!law.has_bonds) measured.reach = material.pair.b;
   measured.force = [&law, material](double d) { return law.force(material, d); };

@@ -101,7 +101,7 @@ class FramesInOrder {
 // The input of metrics: the body and the forces in it.
 
 /// The material's forces between particles.
-PairLaw pair_law(const Material& material, const BondFactors& factors = {});
+ForcesOfPairs pair_law(const Material& material, const BondFactors& factors = {});
 
 /// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds
 /// positions, surface and the bones of particles.
