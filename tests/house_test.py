@@ -184,6 +184,20 @@ def rounding_breaches(lib, room):
             yield f"lib/sinew/{room}/{name}: files that include CGAL, and no others, are CGAL_SOURCES"
 
 
+def linkage_breaches(lib):
+    """What one source alone calls is in an anonymous namespace."""
+    defined = re.compile(r"^(?!static|template|using|namespace|struct|class|enum|constexpr|inline|return|extern|const \w+<)"
+                         r"[\w:<>,&*\s]+?[\s&*](\w+)\(")
+    headers = " ".join(path.read_text() for path in lib.rglob("*.h"))
+    for path in sorted(lib.rglob("*.cpp")):
+        hidden = False
+        for number, line in enumerate(path.read_text().split("\n"), 1):
+            hidden = line == "namespace {" or (hidden and line != "}  // namespace")
+            found = defined.match(line)
+            if found and not hidden and not line.startswith(" ") and not re.search(rf"\b{found.group(1)}\(", headers):
+                yield f"lib/sinew/{path.relative_to(lib)}:{number}: {found.group(1)} is declared in no header"
+
+
 def license_breaches(source, path):
     head = path.read_text().split("\n")[:2]
     line = head[1] if head[0].startswith("#!") and len(head) > 1 else head[0]
@@ -279,6 +293,7 @@ def breaches(source):
             if path.suffix in (".h", ".cpp", ".in"):
                 yield from include_breaches(lib, path)
     yield from circle_breaches(lib)
+    yield from linkage_breaches(lib)
     for path in product_files(source):
         yield from place_breaches(source, path)
     for path in source_files(source):

@@ -107,6 +107,8 @@ Mat3 spread_at_rest(const Points& rest, const NeighborLists& neighbors, std::siz
 
 bool remembers_neighbors(const Material& material) { return law_of(material).has_memory; }
 
+namespace {
+
 /// Of particles in their order.
 LocalStrength in_order(const LocalStrength& local, std::span<const std::int32_t> id) {
   LocalStrength ordered;
@@ -115,6 +117,8 @@ LocalStrength in_order(const LocalStrength& local, std::span<const std::int32_t>
       (ordered.*list).push_back((local.*list)[static_cast<std::size_t>(id[i])]);
   return ordered;
 }
+
+}  // namespace
 
 Solid::Solid(const Material& material, Points rest, std::span<const std::int32_t> id,
              const BondFactors& factors, const LocalStrength& local)

@@ -173,10 +173,14 @@ bool VerletLists<Real>::meets_others(std::size_t piece) const {
   return any;
 }
 
+namespace {
+
 void sort_once(std::vector<std::uint32_t>& pieces) {
   std::sort(pieces.begin(), pieces.end());
   pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
 }
+
+}  // namespace
 
 template <class Real>
 std::vector<std::uint32_t> VerletLists<Real>::pieces_of(
@@ -204,11 +208,15 @@ std::vector<std::uint32_t> VerletLists<Real>::pieces_near(std::size_t piece) con
   return pieces;
 }
 
+namespace {
+
 /// Where a bond broke: its particles now touch like others.
 void add_broken(std::span<const kernel::Totals> totals, std::vector<std::uint32_t>& to_list) {
   for (std::uint32_t piece = 0; piece < totals.size(); ++piece)
     if (totals[piece].broke) to_list.push_back(piece);
 }
+
+}  // namespace
 
 template <class Real>
 void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& bonds,

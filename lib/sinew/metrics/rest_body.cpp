@@ -129,6 +129,8 @@ bool all_finite(const Points& points) {
   return std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); });
 }
 
+namespace {
+
 /// The pairs within a range that are no neighbors.
 NeighborLists second_neighbors(const RestShape& shape, double range) {
   const NeighborLists all = neighbors_within(shape.points, range);
@@ -160,6 +162,8 @@ std::vector<double> stiffness_shares(const RestBody& body, const ForcesOfPairs& 
   add(body.second, second);
   return shares;
 }
+
+}  // namespace
 
 RestBody rest_body(RestInput input) {
   check(input);

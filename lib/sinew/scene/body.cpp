@@ -146,10 +146,14 @@ std::vector<double> stiffness_of(const Settings& settings, const Surface& surfac
   return stiffness;
 }
 
+namespace {
+
 /// Whether the forces depend on how much of the body is around each particle.
 bool needs_shares(const Settings& settings) {
   return is_isotropic(settings.material, settings.body.packing);
 }
+
+}  // namespace
 
 Filling fill_body(const Settings& settings, const Surface& surface, bool verify) {
   const BodyOptions& body = settings.body;

@@ -75,6 +75,8 @@ std::vector<const XmlElement*> VtkXmlFile::arrays_in(std::span<const XmlElement>
   return found;
 }
 
+namespace {
+
 /// Arrays are read one by one: data of which there are few bytes would be read again and again.
 void check_shared(const std::vector<XmlElement>& elements) {
   constexpr int max_shared = 16;
@@ -84,6 +86,8 @@ void check_shared(const std::vector<XmlElement>& elements) {
         ++uses[element.attribute("offset")] > max_shared)
       throw vtu_refused("more than 16 arrays are the same appended data");
 }
+
+}  // namespace
 
 VtkXmlFile vtk_xml_file(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark

@@ -213,8 +213,6 @@ void check(const LevelSet& image) {
       throw bad_input("the image has values that are not finite", "write it again without them");
 }
 
-}  // namespace
-
 /// A quadrilateral takes some 310 bytes of memory.
 void check_faces(const Padded& image, std::size_t bytes) {
   const std::size_t faces = image.faces(), max_faces = 500'000 + bytes / 26;
@@ -223,6 +221,8 @@ void check_faces(const Padded& image, std::size_t bytes) {
                         std::to_string(max_faces) + ", as of noise",
                     "smooth the image, or subtract another level from it");
 }
+
+}  // namespace
 
 PolygonSoup zero_level(const LevelSet& image) {
   check(image);

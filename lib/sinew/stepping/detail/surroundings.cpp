@@ -87,6 +87,8 @@ void Surroundings<Real>::set_pins(std::span<const std::int32_t> id) {
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
 }
 
+namespace {
+
 /// Lets a particle slide across.
 template <class Real>
 void hold_obliquely(const Pinned& pin, std::size_t k, const PinPose& place, BlockState<Real>& state,
@@ -95,6 +97,8 @@ void hold_obliquely(const Pinned& pin, std::size_t k, const PinPose& place, Bloc
   state.set_position(k, x + held_part(pin, place.position - x), units);
   state.set_velocity(k, v + held_part(pin, place.velocity - v), units);
 }
+
+}  // namespace
 
 template <class Real>
 void Surroundings<Real>::hold(const Pose& pose, double time, BlockState<Real>& state,
