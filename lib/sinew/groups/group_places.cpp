@@ -288,6 +288,7 @@ void Groups<Real>::mark_lists(std::size_t b, const kernel::Lists& lists) {
 }
 
 template void Groups<double>::set_order(std::span<const std::int32_t>);
+template GroupMotion Groups<double>::in_kernel(std::size_t, const Units&) const;
 template void Groups<double>::place(BlockState<double>&, const Units&);
 template void Groups<double>::show(BlockState<double>&, const Units&,
                                    std::span<const std::uint32_t>);
@@ -296,6 +297,7 @@ template void Groups<double>::read_through(const BondLists<double>&, bool);
 template void Groups<double>::mark_lists(std::size_t, const kernel::Lists&);
 template void Groups<double>::mark_read(std::ptrdiff_t, std::ptrdiff_t);
 template void Groups<float>::set_order(std::span<const std::int32_t>);
+template GroupMotion Groups<float>::in_kernel(std::size_t, const Units&) const;
 template void Groups<float>::place(BlockState<float>&, const Units&);
 template void Groups<float>::show(BlockState<float>&, const Units&, std::span<const std::uint32_t>);
 template void Groups<float>::show_all(BlockState<float>&, const Units&);
