@@ -287,8 +287,9 @@ TEST(ResolvedScene, ThatIsTooLongIsRefusedBeforeTheRun) {
   settings.tracks.resize(1);
   settings.tracks[0].bone = "lower";
   settings.tracks[0].keys.resize(500'000);
-  test::expect_bad_input([&] { readable_scene(settings, "out/scene.yaml"); },
-                         {"could not be read again", "over 67108864); give it fewer bones or keys"});
+  test::expect_bad_input(
+      [&] { readable_scene(settings, "out/scene.yaml"); },
+      {"could not be read again", "over 67108864); give it fewer bones or keys"});
 }
 
 TEST(ResolvedScene, IsTheSameWhenResolvedAgain) {
