@@ -85,6 +85,7 @@ struct RegroupingState {
 struct EvenSteps {
   std::int64_t from = 0;
   double since = 0, step = 0;  ///< s; step 0: not known
+  double made = 0;             ///< the step made last, s
 };
 
 struct SimulationState {

@@ -132,6 +132,8 @@ double Simulation::mass(std::size_t i) const {
 
 void Simulation::follow(StepPlan plan) {
   its_->plan = std::move(plan);
+  its_->plan_from = 0;
+  its_->plan_since = 0;
   set_step(its_->plan.step(0));
 }
 
@@ -168,6 +170,11 @@ namespace {
 
 /// Throws bad input unless a body of the one may go on as one of the other.
 void check_variant(const Material& now, const Material& next) {
+  for (const double value : {next.pair.k1, next.pair.k2, next.pair.a, next.bond.stiffness,
+                             next.bond.second, next.damping, next.volume_stiffness, next.friction})
+    if (!is_computable(value) || value < 0)
+      throw bad_input("the material has a constant of " + three_digits(value),
+                      "give constants that are finite and not negative");
   const BondStrength &a = now.bond, &b = next.bond;
   if (now.model != next.model || now.cohesion != next.cohesion || now.pair.r != next.pair.r ||
       now.pair.b != next.pair.b || now.mass != next.mass || (a.second > 0) != (b.second > 0) ||
@@ -183,6 +190,9 @@ void Simulation::set_material(const Material& material) {
   if (its_->body->grouping || its_->dynamic)
     throw bad_input("groups of particles are made for one material, which another cannot replace",
                     "set hierarchy.enabled to false");
+  if (its_->relaxation)
+    throw bad_input("a body that is brought to rest has the material that it began with",
+                    "begin a simulation of that material");
   check_variant(its_->body->material, material);
   const SimulationState state = save();
   Particles particles = take_particles();
@@ -512,7 +522,8 @@ SimulationState Simulation::save() const {
   SimulationState state;
   its_->stepper->save(state);
   state.steps = its_->steps;
-  if (its_->plan.is_even()) state.even = {its_->plan_from, its_->plan_since, its_->plan.step(0)};
+  if (its_->plan.is_even())
+    state.even = {its_->plan_from, its_->plan_since, its_->plan.step(0), its_->stepping.step};
   state.ledger = its_->ledger.entries();
   state.world_ledger = its_->world_ledger.entries();
   state.held_at_start = its_->held_at_start;
@@ -537,8 +548,9 @@ void Simulation::restore(const SimulationState& state) {
   its_->plan_from = state.even.from;
   its_->plan_since = state.even.since;
   const double last =
-      its_->relaxation
-          ? its_->relaxation->step()
+      its_->relaxation ? its_->relaxation->step()
+      : state.even.made > 0
+          ? state.even.made
           : its_->plan.step(std::max<std::int64_t>(0, state.steps - its_->plan_from - 1));
   set_step(last);
   its_->stepper->restore(state);

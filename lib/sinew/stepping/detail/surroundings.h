@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What surrounds a body, for the list stepper: obstacles, drag, fields, pins, supports, and the
 // friction of the body on itself, evaluated in double precision for the blocks of particles that
-// they may touch; loads, as accelerations that the kernel adds. ../world/world.h gives the forces.
+// they may touch; loads, as accelerations that the kernel adds. world/world.h gives the forces.
 //
 //     surroundings.begin(pose, time, state, units, lists, nullptr);  // before a step
 //     surroundings.run(kernel.step[law][damping], step, begin, end);  // on pieces, in parallel
