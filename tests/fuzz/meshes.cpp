@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/core/triangles.h>
 #include <sinew/mesh/detail/readers/mesh_readers.h>
-#include <sinew/mesh/mesh_formats.h>
 #include "sound_mesh.h"
 
 namespace sinew::fuzz {

@@ -23,7 +23,7 @@ struct BondKind {
   Real stiffness;
 };
 
-/// A spring and a dashpot in series beside each bond: see ../maxwell.h.
+/// A spring and a dashpot in series beside each bond: see material/maxwell.h.
 template <class Real>
 struct Branch {
   Real* stretch;  ///< entries x block: of its dashpot
@@ -52,7 +52,7 @@ struct Bonds {
   const Real* own;       ///< rows x block: stiffness by lane, where it differs
   Real* creep;           ///< entries x block, added to the length; null: none creeps
   std::int32_t* broken;  ///< by particle
-  Real* flow[6];         ///< by particle: P of ../solid.h, x x, y y, z z, y z, z x, x y
+  Real* flow[6];         ///< by particle: P of body/solid.h, x x, y y, z z, y z, z x, x y
   Real* flows;           ///< by particle: positive where P is not 0
   FlowLook<Real>* look;  ///< by piece
   Real yield;            ///< squared shear beyond which bonds creep; 0: never

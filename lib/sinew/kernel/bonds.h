@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces in materials that know their neighbors at rest: ../solid.h gives them for cells.
+// Forces in materials that know their neighbors at rest: body/solid.h gives them for cells.
 #pragma once
 
 #include <sinew/kernel/pairs.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces of the bones on a vector of particles; ../bone_force.h gives them for one particle.
+// Forces of the bones on a vector of particles; body/bone_force.h gives them for one particle.
 #pragma once
 
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds that creep, relax and break: ../solid.h and ../maxwell.h give the laws.
+// Bonds that creep, relax and break: body/solid.h and material/maxwell.h give the laws.
 #pragma once
 
 #include <sinew/kernel/bonds.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the kernel does for groups of particles (../hierarchy/groups.h). Plain, as kernel.h says.
+// What the kernel does for groups of particles (groups/groups.h). Plain, as kernel.h says.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 namespace sinew::kernel {
 
 /// Groups move by polynomials of the place in their frame: of its terms in the order of
-/// ../hierarchy/polynomials.h, affine groups have the first ones alone.
+/// groups/cubic/polynomials.h, affine groups have the first ones alone.
 inline constexpr int affine_terms = 4, square_terms = 10, cubic_terms = 20;
 enum Motions { affine, cubic, motions };
 

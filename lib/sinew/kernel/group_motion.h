@@ -8,7 +8,7 @@
 
 namespace sinew::kernel {
 
-/// A polynomial's values, with coefficients in the order of ../hierarchy/polynomials.h.
+/// A polynomial's values, with coefficients in the order of groups/cubic/polynomials.h.
 template <class L, int terms>
 SINEW_INLINE typename L::V polynomial(const double* c, const Triple<L>& at) {
   using V = typename L::V;

@@ -189,7 +189,7 @@ struct Surroundings {
   void* forces;                 ///< room for what is kept, of Functions::kept bytes
 };
 
-/// Particles that move in groups: see ../hierarchy/groups.h. What a block's role is unless it has a
+/// Particles that move in groups: see groups/groups.h. What a block's role is unless it has a
 /// row of accelerations.
 enum Role : std::int32_t { working = -1, idle = -2 };
 

@@ -8,7 +8,7 @@
 
 namespace sinew::kernel {
 
-/// The first terms of a place, in the order of ../hierarchy/polynomials.h.
+/// The first terms of a place, in the order of groups/cubic/polynomials.h.
 template <class L, int terms>
 struct TermsOf {
   using V = typename L::V;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces that follow from the least-squares deformation gradient F = (sum x X^T) A^-1 around each
-// particle, A = sum X X^T over its neighbors at rest: ../solid.h and ../world/muscles.h derive
+// particle, A = sum X X^T over its neighbors at rest: body/solid.h and world/muscles.h derive
 // them. Volumes need all of F, and fibers F t alone.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The volumes that particles keep (bonded_volume), by the formulas of physics/solid.h: each rank
+// The volumes that particles keep (bonded_volume), by the formulas of body/solid.h: each rank
 // finds J and the thrust of its own particles, ghosts are sent theirs, and each particle sums.
 #include <sinew/lammps/pair_sinew.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The branches of bonds (see ../maxwell.h) in the kernel's layout.
+// The branches of bonds (see material/maxwell.h) in the kernel's layout.
 //
 //     BondBranches<Real> branches(strength, entries);
 //     branches.put_into(step.bonds, step_size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fibers of muscles in the kernel's layout: ../kernel/strain_arrays.h has the formulas,
-// ../world/muscles.h their source.
+// The fibers of muscles in the kernel's layout: kernel/strain_arrays.h has the formulas,
+// world/muscles.h their source.
 //
 //     FiberLists<Real> fibers = fiber_lists(body, mass, id, bonds, units);
 //     fibers.set_activations(activations_at(muscles, time));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Groups of particles (../hierarchy/groups.h) as neighbor lists see them.
+// Groups of particles (groups/groups.h) as neighbor lists see them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace sinew {
 
-/// Groups of particles, which are not always at their places (../hierarchy/groups.h).
+/// Groups of particles, which are not always at their places (groups/groups.h).
 struct GroupedParticles {
   /// Puts those of some pieces there.
   std::function<void(std::span<const std::uint32_t> pieces)> show = [](const auto&) {};

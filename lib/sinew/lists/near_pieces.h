@@ -15,7 +15,7 @@
 // (piece_parts.h).
 //
 // Pieces that are bound to each other, because all of their particles are of one group
-// (../hierarchy/groups.h), are left to the caller, and looked up only when it asks.
+// (groups/groups.h), are left to the caller, and looked up only when it asks.
 //
 //     NearPieces near(ranges, group_of_pieces);
 //     near.survey(pieces, time);    // now and then: how the pieces move

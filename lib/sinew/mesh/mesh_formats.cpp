@@ -110,4 +110,8 @@ PolygonSoup read_obj_look(const std::string& path, PolygonLook& look) {
   return read_obj(open_mesh(path), look);
 }
 
+std::vector<SurfaceLook::Material> read_materials(const std::string& path) {
+  return read_mtl(path);
+}
+
 }  // namespace sinew

@@ -41,6 +41,6 @@ PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> m
 PolygonSoup read_obj_look(const std::string& path, PolygonLook& look);
 /// The materials of an MTL file beside an OBJ: color (Kd), opacity (d, Tr) and texture (map_Kd).
 /// None where it cannot be read; what is no number is left out.
-std::vector<SurfaceLook::Material> read_mtl(const std::string& path);
+std::vector<SurfaceLook::Material> read_materials(const std::string& path);
 
 }  // namespace sinew

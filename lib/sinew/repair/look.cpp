@@ -127,7 +127,7 @@ SurfaceLook look_of(const BodyOptions& body, const Triangles& surface,
     library = file_below(path.parent_path(), library).string();
   std::erase(look.libraries, "");
   for (const std::string& library : look.libraries)
-    for (SurfaceLook::Material& material : read_mtl(library))
+    for (SurfaceLook::Material& material : read_materials(library))
       look.materials.push_back(std::move(material));
   return look;
 }

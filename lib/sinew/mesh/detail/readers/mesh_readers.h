@@ -41,6 +41,10 @@ MeshFile open_mesh(const std::string& path);
 PolygonSoup read_obj(const MeshFile& file);
 PolygonSoup read_obj(const MeshFile& file, PolygonLook& look);
 
+/// The materials of an MTL file beside an OBJ: color (Kd), opacity (d, Tr) and texture (map_Kd).
+/// None where it cannot be read; what is no number is left out.
+std::vector<SurfaceLook::Material> read_mtl(const std::string& path);
+
 /// Geomview OFF (also with colors, normals, texture coordinates; text only).
 PolygonSoup read_off(const MeshFile& file);
 

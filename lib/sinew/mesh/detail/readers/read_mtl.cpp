@@ -5,7 +5,6 @@
 
 #include <sinew/core/file.h>
 #include <sinew/mesh/detail/readers/mesh_readers.h>
-#include <sinew/mesh/mesh_formats.h>
 
 namespace sinew {
 namespace {
