@@ -150,6 +150,20 @@ TEST(Between, StepsMayBecomeShorterAndTimeGoesOn) {
     test::expect_bad_input([&] { simulation.set_time_step(bad); }, {"a time step of"});
 }
 
+/// A state saved between the new step and the first of its size continues as if it had not been.
+TEST(Between, AStepThatIsNewIsKeptInAState) {
+  Simulation once = test::make_simulation(bending(), bar());
+  Simulation saved = test::make_simulation(bending(), bar());
+  for (Simulation* one : {&once, &saved}) {
+    one->advance(40);
+    one->set_time_step(one->save().even.step / 3);
+  }
+  saved.restore(saved.save());
+  once.advance(40);
+  saved.advance(40);
+  expect_same_bits(once, saved);
+}
+
 /// A body that goes on with another material feels its forces at once.
 TEST(Between, TheMaterialMayChange) {
   for (const auto& [settings, tolerance] :
@@ -181,6 +195,11 @@ TEST(Between, TheMaterialMayChange) {
   Material other = simulation.body().material;
   other.mass *= 2;
   test::expect_bad_input([&] { simulation.set_material(other); }, {"other particles"});
+  for (const double bad : {std::nan(""), 1e200, -1.0}) {
+    other = simulation.body().material;
+    other.pair.k1 = bad;
+    test::expect_bad_input([&] { simulation.set_material(other); }, {"a constant of"});
+  }
 }
 
 /// A motion to which keys are added goes on as if they had been known.
