@@ -7,6 +7,7 @@
 
 #include <sinew/body/step_plan.h>
 #include <sinew/rig/motion.h>
+#include <sinew/stepping/equilibrium.h>
 #include <sinew/stepping/simulation.h>
 
 #include "support/all_steppers.h"
@@ -200,6 +201,10 @@ TEST(Between, TheMaterialMayChange) {
     other.pair.k1 = bad;
     test::expect_bad_input([&] { simulation.set_material(other); }, {"a constant of"});
   }
+  other = simulation.body().material;
+  simulation.relax({.interval = 0.1});
+  test::expect_bad_input([&] { simulation.set_material(other); }, {"brought to rest"});
+  test::expect_bad_input([&] { simulation.set_time_step(1e-4); }, {"follow a plan"});
 }
 
 /// A motion to which keys are added goes on as if they had been known.
