@@ -64,8 +64,7 @@ template <class Real>
 void ListStepper<Real>::find_slots() {
   slots_ = bone_slots<Real>(*body_, layout_.id(), layout_.units());
   surroundings_.set_order(layout_.id());
-  groups_.set_order(layout_.id());
-  groups_.read_through(bonds_, !strain_.empty());
+  groups_.set_order(layout_.id(), bonds_, !strain_.empty());
   counted_ = false;
   masses_.assign(body_->density.empty() ? 0 : layout_.now.blocks() * block, 1);
   for (std::size_t k = 0; k < layout_.size() && !masses_.empty(); ++k)
@@ -253,10 +252,8 @@ void ListStepper<Real>::move_groups(const kernel::Step<Real>& now) {
   };
   const GroupStep by{seconds(now.kick), seconds(now.drift), seconds(now.middle), now.drift_first,
                      stepping_.gravity};
-  groups_.sum(bonds_, now, layout_.units(), by);
   const auto meets = [this](std::size_t piece) { return lists_.meets_others(piece); };
-  groups_.bound(layout_.units(), by, meets, lists_.parts(), totals_);
-  groups_.check_stretch();
+  groups_.step(bonds_, now, layout_.units(), by, meets, totals_);
 }
 
 template <class Real>
@@ -280,18 +277,9 @@ void ListStepper<Real>::update_lists() {
   } else if (anew || !lists_.made()) {
     make_lists();
   } else if (stepped) {
-    lists_.follow(layout_.now, bonds_, layout_.units(), totals_, grouped());
+    lists_.follow(layout_.now, bonds_, layout_.units(), totals_,
+                  groups_.seen(layout_.now, layout_.units()));
   }
-}
-
-template <class Real>
-GroupedParticles ListStepper<Real>::grouped() {
-  if (!groups_.any()) return {};
-  const auto show = [this](std::span<const std::uint32_t> pieces) {
-    groups_.show(layout_.now, layout_.units(), pieces);
-  };
-  const auto now = [this](std::size_t piece) { return groups_.piece_now(piece, layout_.units()); };
-  return {show, groups_.group_of_pieces(), now, groups_.strains(), groups_.working_pieces()};
 }
 
 /// What pins moved counts as faster motion of the step before.
@@ -312,7 +300,8 @@ void ListStepper<Real>::follow_units() {
 
 template <class Real>
 void ListStepper<Real>::make_lists() {
-  lists_.make(layout_.now, parts(), bonds_, layout_.units(), grouped());
+  lists_.make(layout_.now, parts(), bonds_, layout_.units(),
+              groups_.seen(layout_.now, layout_.units()));
 }
 
 template <class Real>

@@ -70,7 +70,6 @@ class ListStepper final : public Stepper {
   kernel::Step<Real> begin(const TimedPose& now, Points* world_forces, bool whole);
   void find_deformation(const kernel::Step<Real>& now);
   void find_flow(const kernel::Step<Real>& now);
-  GroupedParticles grouped();
   void move_groups(const kernel::Step<Real>& now);
   StepSums run(kernel::Step<Real> now, const Pose& pose);
   Imbalance imbalance() const;
