@@ -144,6 +144,7 @@ void Groups<Real>::add_held(std::span<const std::int32_t> cell, const Units& uni
 template <class Real>
 void Groups<Real>::constrain(Forces& forces, const std::vector<std::uint32_t>& caller,
                              const Vec3& gravity) const {
+  forces.group.clear();
   if (any()) parts_->motions.constrain(forces, caller, gravity);
 }
 

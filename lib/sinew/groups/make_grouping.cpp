@@ -273,6 +273,8 @@ StretchRange stretch_range(const Body& body) {
   return {least, holds_seconds(body) ? 2 * r / third_distance : least, lasts};
 }
 
+bool groups_are_built() { return true; }
+
 bool may_bend(const Body& body) {
   return law_of(body.material).has_bonds && has_affine_forces(body) && !keeps_volume(body);
 }

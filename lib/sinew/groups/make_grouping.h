@@ -21,6 +21,10 @@ namespace sinew {
 
 struct Body;
 
+/// Whether this sinew was built with groups (SINEW_GROUPS). Without, all that makes some throws bad
+/// input.
+bool groups_are_built();
+
 inline constexpr std::size_t none_cubic = std::numeric_limits<std::size_t>::max();
 
 /// Finds the layers of `group` (by particle id; below 0: free), and numbers the groups anew in the

@@ -362,7 +362,6 @@ void GroupMotions<Real>::constrain(Forces& forces, const std::vector<std::uint32
   const std::vector<std::int32_t>& group = places.group;
   const Vec3 weight = mass_ * gravity;
   std::vector<Sums> parts((group.size() + particles_per_sum - 1) / particles_per_sum);
-  forces.group.clear();
   parallel_for(group.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
     Sums& sums = parts[begin / particles_per_sum];
     sums.assign(shapes_->size(), Coefficients::Zero());
