@@ -44,7 +44,7 @@ RestInput lively_input() {
   input.start.pair = 1.5;
   input.law.force = [](double d) { return 40 * (2 * r - d) / r; };
   input.law.bond = [](double d, double before) { return 70 * (before - d) / r; };
-  input.law.volume_stiffness = 2e4;
+  keep_volumes(input, 2e4);
   return input;
 }
 

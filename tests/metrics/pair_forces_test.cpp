@@ -66,7 +66,7 @@ TEST(PairForces, OfBrokenBondsAreThoseOfContacts) {
 
 TEST(PairForces, VolumesOfSeveredParticlesAreNotKept) {
   RestInput input = changing();
-  input.law.volume_stiffness = 1000;
+  keep_volumes(input, 1000);
   const RestBody body = rest_body(input);
   FrameState state = moved(body, scaled(1.1));
   state.bond_rest = times(0, first_bond_rest(body));

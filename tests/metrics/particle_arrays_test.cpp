@@ -121,7 +121,7 @@ TEST(ParticleArrays, BondsPullWhereNoOtherForceReaches) {
 TEST(ParticleArrays, VolumesThatAreKeptPressBack) {
   RestInput input = box_input();
   input.law.force = [](double) { return 0.0; };
-  input.law.volume_stiffness = 1000;
+  keep_volumes(input, 1000);
   const RestBody body = rest_body(input);
   const double J = std::pow(0.9, 3);
   const auto found = values_of(body, moved(body, affine(0.9 * Mat3::Identity())), "stress");

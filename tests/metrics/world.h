@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include <sinew/body/volume_weights.h>
 #include <sinew/core/particles.h>
 #include <sinew/metrics/frame_metrics.h>
 
@@ -74,6 +75,12 @@ inline RestInput box_input() {
   input.radius = r;
   input.interaction_range = b;
   return input;
+}
+
+/// Particles keep their volumes, with their weights as simulations find them (Pa).
+inline void keep_volumes(RestInput& input, double stiffness) {
+  input.law.volume_stiffness = stiffness;
+  input.law.volume_weight = own_volume_weights(input.positions, input.radius);
 }
 
 inline Points mapped(Points points, const Map& map) {

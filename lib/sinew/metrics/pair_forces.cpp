@@ -66,11 +66,12 @@ Mat3 virial(double force, const Vec3& apart, double d) {
 /// Of a particle's volume energy U = (K_v / 2) V0 w (J - 1)^2: the stress, over V0. It is severed
 /// and keeps no volume once a bond broke.
 Mat3 volume_stress(const RestBody& rest, const FrameState& state, std::size_t i, bool severed) {
-  if (rest.stiffened.empty() || rest.stiffened[i] == 0 || severed) return Mat3::Zero();
+  const std::vector<double>& weight = rest.law.volume_weight;
+  if (weight.empty() || weight[i] == 0 || severed) return Mat3::Zero();
   const double J = deformation_gradient(rest.shape, state.positions, i).determinant();
   const auto& local = rest.law.volume_stiffness_of;
   const double stiffness = local.empty() ? rest.law.volume_stiffness : local[i];
-  return stiffness * rest.stiffened[i] * (J - 1) * J * Mat3::Identity();
+  return stiffness * weight[i] * (J - 1) * J * Mat3::Identity();
 }
 
 }  // namespace

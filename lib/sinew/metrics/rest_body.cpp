@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/rest_body.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -50,6 +49,11 @@ void check(const RestInput& input) {
   require(input.weight.empty() || input.weight.size() == input.positions.size(),
           "there are " + std::to_string(input.positions.size()) + " particles but weights for " +
               std::to_string(input.weight.size()));
+  const bool keeps_volume =
+      input.law.volume_stiffness > 0 || !input.law.volume_stiffness_of.empty();
+  require(!keeps_volume || input.law.volume_weight.size() == input.positions.size(),
+          "there are " + std::to_string(input.positions.size()) + " particles that keep their " +
+              "volumes, but weights for " + std::to_string(input.law.volume_weight.size()));
   check_bones(input.bones);
   for (const int bone : input.bone)
     require(bone >= -1 && bone < static_cast<int>(input.bones.size()),
@@ -105,22 +109,6 @@ std::vector<Bound> bound_particles(const RestInput& input, const std::vector<Joi
     all.push_back(bound);
   }
   return all;
-}
-
-/// Weight of a particle's volume stiffness: w = min(1, least eigenvalue of A / (4 d0^2))^2, with
-/// A = sum dX dX^T over its neighbors; less at the surface, where neighbors are few.
-std::vector<double> volume_weights(const RestShape& shape, double radius) {
-  const double full = 4 * nearest_distance(radius) * nearest_distance(radius);
-  std::vector<double> weights(shape.points.size(), 0);
-  parallel_for(weights.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!shape.defined(i)) continue;
-      const Eigen::SelfAdjointEigenSolver<Mat3> inverse(shape.inverse[i], Eigen::EigenvaluesOnly);
-      const double share = std::min(1.0, 1 / (inverse.eigenvalues()[2] * full));
-      weights[i] = share * share;
-    }
-  });
-  return weights;
 }
 
 }  // namespace
@@ -180,9 +168,6 @@ RestBody rest_body(RestInput input) {
   if (input.law.second) body.second = second_neighbors(body.shape, input.law.second_range);
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
-  if (input.law.volume_stiffness > 0 || !input.law.volume_stiffness_of.empty())
-    body.stiffened = input.law.volume_weight.empty() ? volume_weights(body.shape, input.radius)
-                                                     : input.law.volume_weight;
   body.surface = std::move(input.surface);
   body.bones = std::move(input.bones);
   body.radius = input.radius;

@@ -34,7 +34,7 @@ struct ForcesOfPairs {
   double reach = std::numeric_limits<double>::infinity();
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
   std::vector<double> volume_stiffness_of = {};  ///< by particle; empty: as that
-  /// By particle, over that of one inside; empty: as its neighbors say.
+  /// Weight of each particle's volume stiffness, over that of one inside; empty where none is.
   std::vector<double> volume_weight;
   bool bonds_change = false;  ///< they break or creep: a frame's state must contain them
   bool has_muscles = false;   ///< a frame's state must contain their stress
@@ -76,7 +76,6 @@ struct RestBody {
   std::vector<double> weight;  ///< n, or empty
   /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
   std::vector<double> share;
-  std::vector<double> stiffened;  ///< n; w of each particle's volume, empty where the law has none
   Slices slices;
   std::vector<Section> sections;
   double radius = 0, interaction_range = 0;  ///< m

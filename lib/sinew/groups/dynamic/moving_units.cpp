@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <sinew/body/body.h>
+#include <sinew/body/grouping.h>
 #include <sinew/core/parallel.h>
 
 namespace sinew {
