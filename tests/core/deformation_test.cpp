@@ -7,6 +7,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 
+#include "support/deformation.h"
 #include "support/world.h"
 
 namespace sinew::deformation_test {
@@ -22,7 +23,8 @@ RestShape box_shape(const Vec3& at = {0, 0, 0}) {
 }
 
 void expect_gradient(const RestShape& rest, const Mat3& F, double tolerance) {
-  for (const Mat3& found : deformation_gradients(rest, affine(rest.points, F, {0.3, -0.2, 0.1})))
+  for (const Mat3& found :
+       test::deformation_gradients(rest, affine(rest.points, F, {0.3, -0.2, 0.1})))
     ASSERT_LT((found - F).cwiseAbs().maxCoeff(), tolerance);
 }
 
@@ -46,7 +48,8 @@ TEST(DeformationGradient, OfARigidMotionIsItsRotation) {
 TEST(DeformationGradient, KeepsDigitsFarFromTheOrigin) {
   // Coordinates of 100 m hold 1.4e-14 m, that is 1e-12 of a neighbor's distance.
   const RestShape rest = box_shape({100, -100, 50});
-  for (const Mat3& found : deformation_gradients(rest, affine(rest.points, turned({0, 1, 0}, 90))))
+  for (const Mat3& found :
+       test::deformation_gradients(rest, affine(rest.points, turned({0, 1, 0}, 90))))
     ASSERT_LT((found - turned({0, 1, 0}, 90)).cwiseAbs().maxCoeff(), 1e-10);
 }
 
@@ -63,7 +66,7 @@ TEST(DeformationGradient, UsesOnlyTheNeighborsOfItsOwnPoint) {
   const RestShape rest = box_shape();
   Points now = rest.points;
   now.back() += Vec3(0.002, 0, 0);
-  const auto gradients = deformation_gradients(rest, now);
+  const auto gradients = test::deformation_gradients(rest, now);
   for (std::uint32_t i = 0; i + 1 < now.size(); ++i) {
     const auto row = rest.neighbors.of(i);
     const bool touches = std::find(row.begin(), row.end(), now.size() - 1) != row.end();

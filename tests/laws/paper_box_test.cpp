@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include <sinew/core/deformation.h>
 #include <sinew/scene/rig.h>
 
+#include "support/deformation.h"
 #include "support/world.h"
 
 namespace sinew::paper_box_test {
@@ -51,7 +51,7 @@ double rms(const Points& a, const Points& b, Counts&& counts) {
 
 int inverted(const Points& now) {
   const RestShape rest = rest_shape(box(), rest_neighbor_range(r));
-  const auto gradients = deformation_gradients(rest, now);
+  const auto gradients = test::deformation_gradients(rest, now);
   return static_cast<int>(std::count_if(gradients.begin(), gradients.end(),
                                         [](const Mat3& F) { return F.determinant() <= 0; }));
 }

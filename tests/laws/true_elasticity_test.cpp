@@ -2,10 +2,10 @@
 // Bodies with bonds recover where the paper's body flows.
 #include <gtest/gtest.h>
 
-#include <sinew/core/deformation.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 
+#include "support/deformation.h"
 #include "support/world.h"
 
 namespace sinew::true_elasticity_test {
@@ -64,7 +64,7 @@ TEST(Paper, FlowsInTheSameBend) {
 double lost_volume(const Simulation& simulation) {
   const RestShape shape = rest_shape(simulation.body().rest, rest_neighbor_range(r));
   double volume = 0, whole = 0;
-  const auto gradients = deformation_gradients(shape, positions_of(simulation.particles()));
+  const auto gradients = test::deformation_gradients(shape, positions_of(simulation.particles()));
   for (std::size_t i = 0; i < gradients.size(); ++i) {
     if (!shape.defined(i)) continue;
     volume += gradients[i].determinant();

@@ -6,6 +6,7 @@
 #include <sinew/body/body.h>
 #include <sinew/body/forces.h>
 
+#include "support/deformation.h"
 #include "support/expect_error.h"
 #include "support/world.h"
 
@@ -181,7 +182,7 @@ Vec3 stretches_of_pulled_bar(int across, int along, double strength) {
     }
   }
   EXPECT_LT(test::largest_speed(bar), 1e-6 * r * rate);
-  const auto F = deformation_gradients(muscles.rest, positions_of(bar));
+  const auto F = test::deformation_gradients(muscles.rest, positions_of(bar));
   const double middle = half_plane_spacing(r) * along / 2;
   Vec3 sum = Vec3::Zero();
   int count = 0;

@@ -198,13 +198,6 @@ TEST(WorldShapes, LongBoxesBesideAPlaneOrASphereAreTold) {
   EXPECT_TRUE(may_be_near(ball, row, 0.31));
 }
 
-TEST(WorldShapes, ACapsuleLiesAboutABone) {
-  const Skeleton skeleton = skeleton_of(test::box_scene());
-  const CapsuleShape about = capsule_about(skeleton.bones[1], 0.05);
-  EXPECT_EQ(about.a, skeleton.bones[1].head());
-  EXPECT_EQ(about.b, skeleton.bones[1].tail());
-}
-
 TEST(WorldShapes, BadShapesAreRefused) {
   const auto refused = [](const Shape& shape, const std::string& why) {
     test::expect_bad_input([&] { check_shape(shape, "it"); }, {why});

@@ -86,12 +86,6 @@ double explicit_limit(const Material& material, const std::vector<BoneSprings>& 
 
 }  // namespace
 
-double highest_frequency_squared(const Material& material,
-                                 const std::vector<BoneSprings>& springs) {
-  return (lattice_factor(material) * material.stiffness() + stiffest_spring(springs)) /
-         material.mass;
-}
-
 double stiffest_volume(const Body& body) {
   const Material& material = body.material;
   const PackingStiffness packing = material.packing();

@@ -22,11 +22,6 @@ struct WorldLoad {
   double damping = 0;    ///< 1/s
 };
 
-/// Highest frequency of the packed body on its bones: w^2 = 8 k / m (more with volume stiffness) +
-/// (stiffest bone spring) / m, in 1/s^2. (A body cut from the packing is no stiffer than the
-/// packing.)
-double highest_frequency_squared(const Material& material, const std::vector<BoneSprings>& springs);
-
 /// What BondFactors::stiffest must be for the stiffest of the parts of a body that keep volumes of
 /// their own; 0 without.
 double stiffest_volume(const Body& body);

@@ -63,14 +63,6 @@ Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t 
   return moved_spread(rest, now, i) * rest.inverse[i];
 }
 
-std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now) {
-  std::vector<Mat3> gradients(now.size());
-  parallel_for(now.size(), points_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) gradients[i] = deformation_gradient(rest, now, i);
-  });
-  return gradients;
-}
-
 Mat3 rotation_part(const Mat3& F) {
   const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vec3& sizes = svd.singularValues();

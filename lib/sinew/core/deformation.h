@@ -30,9 +30,6 @@ Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i);
 /// F of point i when the points have moved to `now` (n x 3, m); identity where it is undefined.
 Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i);
 
-/// All of them, in parallel.
-std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now);
-
 /// The rotation R of the polar decomposition F = R U; proper (det R = 1) for inverted F as well,
 /// and the shortest one where F keeps only a line.
 Mat3 rotation_part(const Mat3& F);

@@ -6,6 +6,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/rig/skeleton.h>
 
 namespace sinew {
 
@@ -161,10 +162,6 @@ bool may_be_near(const Shape& shape, const Box& box, double range) {
   return std::visit([&](const auto& solid) { return is_near(solid, box, range); }, shape) &&
          (std::holds_alternative<MeshShape>(shape) ||
           signed_distance(shape, box.center()).distance < reach);
-}
-
-CapsuleShape capsule_about(const Bone& bone, double radius) {
-  return {bone.head(), bone.tail(), radius};
 }
 
 void check_shape(const Shape& shape, const std::string& what) {

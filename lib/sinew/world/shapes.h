@@ -15,7 +15,6 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
-#include <sinew/rig/skeleton.h>
 
 namespace sinew {
 
@@ -63,9 +62,6 @@ bool may_be_within(const Shape& shape, const Vec3& point, double range);
 
 /// Whether that of any point of `box` (m, not empty) may be below `range` (m >= 0).
 bool may_be_near(const Shape& shape, const Box& box, double range);
-
-/// The capsule of `radius` (m) about a bone's segment at rest.
-CapsuleShape capsule_about(const Bone& bone, double radius);
 
 /// Throws bad input, naming `what` the shape is for, for sizes that are not positive and finite, a
 /// plane without direction, a box whose axes are not square, a mesh without distance or bounds.
