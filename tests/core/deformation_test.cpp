@@ -7,7 +7,6 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 
-#include "support/deformation.h"
 #include "support/world.h"
 
 namespace sinew::deformation_test {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include <sinew/io/detail/xml.h>
+#include <sinew/io/paraview/view_script.h>
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>
 #include "support/expect_error.h"
@@ -172,6 +173,20 @@ TEST_F(ViewState, SeriesThatAreMissingAreLeftOut) {
 
 TEST_F(ViewState, AFolderWithoutFramesIsRefused) {
   test::expect_bad_input([&] { shown_run(folder, {}); }, {"particles.pvd"});
+}
+
+using ViewScript = Scratch;
+
+TEST_F(ViewScript, KnowsTheFolderItWasLeftIn) {
+  const auto odd = folder / "a \"run\" \\ of Ärms";
+  std::filesystem::create_directories(odd);
+  write_view_script(odd);
+  for (const char* name : {"view.py", "live.py"}) {
+    const std::string text = text_of(odd / name);
+    EXPECT_TRUE(contains(text, "a \\\"run\\\" \\\\ of Ärms\"\n")) << name;
+    EXPECT_TRUE(contains(text, "Point Gaussian")) << name;  // it is whole: what both share is there
+    EXPECT_FALSE(contains(text, "from look")) << name;
+  }
 }
 
 }  // namespace sinew::view_state_test

@@ -5,7 +5,6 @@
 
 #include <sinew/scene/rig.h>
 
-#include "support/deformation.h"
 #include "support/world.h"
 
 namespace sinew::paper_box_test {
@@ -63,6 +62,14 @@ double broken(const Points& now, double b) {
   for (std::size_t i = 0; i < now.size(); ++i)
     for (const auto j : lists.of(i)) ++pairs, apart += (now[i] - now[j]).norm() >= b;
   return apart / pairs;
+}
+
+TEST(PaperBox, AtRestStaysAtRestFor10000Steps) {
+  Simulation simulation =
+      test::make_simulation(test::box_scene(), test::fcc_box(11, 11, 49, 0.010));
+  ASSERT_EQ(simulation.particles().size(), 2965u);
+  while (simulation.steps() < 10000) simulation.step();
+  EXPECT_LT(test::largest_speed(simulation.particles()), 1e-13);
 }
 
 TEST(PaperBox, BentBy90DegreesFollowsItsBoneAndSettles) {

@@ -5,7 +5,6 @@
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
 
-#include "support/deformation.h"
 #include "support/world.h"
 
 namespace sinew::true_elasticity_test {

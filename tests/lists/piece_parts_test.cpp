@@ -68,6 +68,7 @@ TEST(PieceParts, AreOfOneBoneInABodyAtRest) {
 }
 
 TEST(PieceParts, AreOfOneGroupOrOfOneBoneAndNone) {
+  if (!groups_are_built()) GTEST_SKIP() << "built without groups";
   const Points rest = test::fcc_box(11, 11, 49, r);
   Body body = test::make_body(test::box_scene(49), rest);
   const double middle = bounds(rest).center().z();

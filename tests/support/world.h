@@ -6,6 +6,7 @@
 #include <random>
 
 #include <sinew/analysis/time_step.h>
+#include <sinew/core/deformation.h>
 #include <sinew/core/particles.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/setup.h>
@@ -177,6 +178,14 @@ inline Particles shaken(const Points& points, const Material& material, double s
     particles.set_velocity(i, speed * vector());
   }
   return particles;
+}
+
+/// Deformation gradients of all particles.
+inline std::vector<Mat3> deformation_gradients(const RestShape& rest, const Points& now) {
+  std::vector<Mat3> gradients;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    gradients.push_back(deformation_gradient(rest, now, i));
+  return gradients;
 }
 
 }  // namespace sinew::test

@@ -41,6 +41,8 @@ solver:
 """
 
 SERIES = ["particles", "surface", "bones", "frames"]
+CACHE = BIN.parent / "CMakeCache.txt"  # not there where sinew is installed
+HAS_GROUPS = not CACHE.is_file() or "SINEW_GROUPS:BOOL=OFF" not in CACHE.read_text()
 
 
 def sinew(*words, check=None, timeout=120, **options):

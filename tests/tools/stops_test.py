@@ -19,7 +19,7 @@ import time
 import unittest
 from pathlib import Path
 
-from small_run import BIN, SERIES, SOURCE, SmallRun, sinew
+from small_run import BIN, HAS_GROUPS, SERIES, SOURCE, SmallRun, sinew
 
 
 class Stops(SmallRun):
@@ -72,7 +72,7 @@ class Stops(SmallRun):
 
     def test_frames_end_with_the_duration(self):
         ways = ["solver.integrator=velocity_verlet", "solver.neighbor_search=cells", "solver.precision=single",
-                "solver.time_step=1e-3", "hierarchy.enabled=true"]
+                "solver.time_step=1e-3"] + ["hierarchy.enabled=true"] * HAS_GROUPS
         for way in ways:
             words = ["--set", "output.interval=0.15", "--set", way]
             self.simulate("--force", *words)

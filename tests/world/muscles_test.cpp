@@ -6,7 +6,6 @@
 #include <sinew/body/body.h>
 #include <sinew/body/forces.h>
 
-#include "support/deformation.h"
 #include "support/expect_error.h"
 #include "support/world.h"
 

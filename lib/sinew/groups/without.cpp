@@ -2,7 +2,6 @@
 // The room without its contents (SINEW_GROUPS is OFF): no particle is in a group, and who asks for
 // groups is told so.
 #include <sinew/core/error.h>
-#include <sinew/groups/dynamic/dynamic_groups.h>
 #include <sinew/groups/groups.h>
 #include <sinew/groups/kept_free.h>
 #include <sinew/groups/make_grouping.h>
@@ -25,16 +24,6 @@ Grouping make_grouping(const Body&, std::vector<std::int32_t>, std::size_t) { re
 Grouping static_groups(const Body&, const std::vector<bool>&, const GroupSizes&) { refuse(); }
 std::vector<bool> moving_joints(const Skeleton&, const Motion&, double) { refuse(); }
 std::vector<std::uint8_t> kept_free(const Body&, const AskedFree&) { refuse(); }
-
-DynamicGroups::DynamicGroups(std::shared_ptr<const Body>, Motion, double, const DynamicOptions&) {
-  refuse();
-}
-bool DynamicGroups::must_split(const GroupingMoment&, std::span<const HeldCell>) const { refuse(); }
-bool DynamicGroups::may_join(const GroupingMoment&, std::size_t) const { refuse(); }
-NewGroups DynamicGroups::regroup(const GroupingMoment&, std::span<const HeldCell>,
-                                 const Particles&) const {
-  refuse();
-}
 
 template <class Real>
 struct Groups<Real>::Parts {};
