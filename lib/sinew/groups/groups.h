@@ -36,7 +36,7 @@
 #include <sinew/kernel/kernel.h>
 #include <sinew/lists/block_state.h>
 #include <sinew/lists/bond_lists.h>
-#include <sinew/lists/grouped_particles.h>
+#include <sinew/lists/near_pieces.h>
 
 namespace sinew {
 

@@ -22,7 +22,6 @@
 
 #include <sinew/kernel/kernel.h>
 #include <sinew/lists/block_state.h>
-#include <sinew/lists/grouped_particles.h>
 #include <sinew/lists/list_counts.h>
 #include <sinew/lists/near_pieces.h>
 #include <sinew/lists/offset_lists.h>
