@@ -152,7 +152,7 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("steps", setup.plan.steps_until(setup.frames.count));
   if (setup.plan.divided() > 0) {
     results.add("intervals_of_shorter_steps", setup.plan.divided());
-    results.add("shortest_time_step", setup.steps.step / setup.plan.most_parts(), "s");
+    results.add("shortest_time_step", setup.steps.step / setup.plan.max_parts(), "s");
   }
   results.add("duration", settings.solver.duration, "s");
   results.add("bone_speed", speed, "radii per step");
@@ -165,7 +165,7 @@ void add_load_steps(const Settings& settings, const LoadSteps& steps, double rat
   results.add("frames", steps.count);
   results.add("duration", settings.solver.duration, "s");
   results.add("residual", steps.residual);
-  results.add("most_iterations_per_frame", steps.most_iterations);
+  results.add("max_iterations_per_frame", steps.max_iterations);
   results.add("time_of_1000_iterations", 1000 * static_cast<double>(particles) / rate, "s");
 }
 
@@ -195,7 +195,7 @@ void add_groups(const Settings& settings, const Setup& setup, const Particles& p
   results.add("within_groups", percent(grouping->inside()), "%");
   if (grouping->size() == 0) {  // too small: what groups of any size would bring
     GroupSizes small = *sizes;
-    small.least = smallest_group;
+    small.min_particles = smallest_group;
     grouping = grouping_of(small);
   }
   if (grouping->size() == 0) return;

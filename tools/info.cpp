@@ -29,11 +29,11 @@ using namespace sinew;
 
 using Json = nlohmann::ordered_json;
 
-constexpr int least_samples = 200;  // of a clip, for its largest speed
+constexpr int min_samples = 200;  // of a clip, for its largest speed
 
 /// The largest speed of any bone's head or tail in a clip, m/s.
 double largest_speed(const Skeleton& skeleton, const Clip& clip) {
-  const int samples = std::max(least_samples, 2 * clip.frames);
+  const int samples = std::max(min_samples, 2 * clip.frames);
   double fastest = 0;
   PoseCursor poses(skeleton, clip.motion);
   for (int sample = 0; sample <= samples; ++sample) {
@@ -190,7 +190,7 @@ std::vector<std::string> mesh_warnings(const Surface& surface, double ambiguous,
   if (!surface.warning.empty()) warnings.push_back(surface.warning);
   const double size = bounds(surface.triangles.points).sizes().maxCoeff();
   if (const auto odd = size_warning(size)) warnings.push_back(*odd);
-  if (ambiguous > most_ambiguous)
+  if (ambiguous > max_ambiguous)
     warnings.push_back("the surface has no inside (" + three_digits(100 * ambiguous) +
                        " % of its box is ambiguous): close its holes, or fill it with a thickness");
   else if (!(inside > 0))
@@ -214,7 +214,7 @@ std::vector<std::string> add_mesh_info(const BodyOptions& body, const std::strin
   results.add("box_size", as_list(box.sizes()), "m");
   results.add("ambiguous_share", ambiguous);
   if (diagnosis.thinnest) results.add("thinnest_part", *diagnosis.thinnest, "m");
-  if (ambiguous <= most_ambiguous && inside > 0) add_radii(inside, diagnosis, results);
+  if (ambiguous <= max_ambiguous && inside > 0) add_radii(inside, diagnosis, results);
   if (!drawing.empty()) {
     write_defects(drawing, drawing_of(surface, defects_of(surface, diagnosis)));
     results.add("drawing", drawing);

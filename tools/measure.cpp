@@ -24,7 +24,7 @@ namespace {
 
 using namespace sinew;
 
-constexpr int most_runs = 1000;
+constexpr int max_runs = 1000;
 
 struct Options {
   std::vector<std::string> folders;
@@ -36,7 +36,7 @@ struct Options {
 void declare(OptionList& list, Options& options) {
   list.add("DIR", options.folders, "Folder of the run, or folders of runs to compare")
       .required()
-      .expected(1, most_runs);
+      .expected(1, max_runs);
   list.add("-o", options.out, "Folder for the comparison of several runs").type_name("DIR");
   list.add("--fail-on", options.limits,
            "Exit with code 1 if this holds in any frame, such as 'volume_error > 0.05'; for "

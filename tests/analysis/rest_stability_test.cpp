@@ -21,29 +21,29 @@ INSTANTIATE_TEST_SUITE_P(Both, Packings, testing::Values(Packing::fcc, Packing::
 
 TEST_P(Packings, RestBelowTheSecondNeighbors) {
   for (const double b : {2.2, 2.6, 2.75})
-    EXPECT_GT(least_rise(material_with(2, b), GetParam()), 0.1) << b;
+    EXPECT_GT(min_rise(material_with(2, b), GetParam()), 0.1) << b;
 }
 
 TEST_P(Packings, CollapseWhereSecondNeighborsPull) {
   for (const double b : {2.8284, 2 * std::sqrt(2.0), 2.84, 3.0})
-    EXPECT_LT(least_rise(material_with(2, b), GetParam()), -0.1) << b;
+    EXPECT_LT(min_rise(material_with(2, b), GetParam()), -0.1) << b;
 }
 
 TEST_P(Packings, SwellWhereNothingPulls) {
-  EXPECT_LE(least_rise(material_with(2.1, 2.7), GetParam()), 1e-6);
+  EXPECT_LE(min_rise(material_with(2.1, 2.7), GetParam()), 1e-6);
 }
 
 TEST_P(Packings, RestWithBonds) {
   for (const double b : {2.6, 2.8284})
     for (const auto model : {MaterialModel::bonded, MaterialModel::bonded_volume})
-      EXPECT_GT(least_rise(material_with(2, b, model), GetParam()), 0.1);
+      EXPECT_GT(min_rise(material_with(2, b, model), GetParam()), 0.1);
 }
 
 TEST_P(Packings, RiseTheSameForAnySize) {
   Settings settings = test::box_scene();
-  const double one = least_rise(test::material_of(settings), GetParam());
+  const double one = min_rise(test::material_of(settings), GetParam());
   settings.body.radius = 0.001;
-  EXPECT_NEAR(least_rise(test::material_of(settings), GetParam()), one, 1e-5 * one);
+  EXPECT_NEAR(min_rise(test::material_of(settings), GetParam()), one, 1e-5 * one);
 }
 
 TEST(RestStability, ChecksBothPackings) {

@@ -34,7 +34,7 @@ using namespace sinew::bench;
 enum class Kind { single, binary64, cells, all_pairs };
 constexpr std::array kinds{"single", "double", "cells", "all_pairs"};
 constexpr std::size_t counts[] = {3'000, 30'000, 300'000, 3'000'000};
-constexpr std::size_t most_for_all_pairs = 3'000;
+constexpr std::size_t max_for_all_pairs = 3'000;
 constexpr int first_steps = 5;  // build what is kept between steps; then the hash is taken
 
 std::filesystem::path states_folder;  // empty: states are made here
@@ -211,7 +211,7 @@ void register_case(const std::string& name, const Case& what) {
 }
 
 void register_steps(Condition condition, std::size_t count, Kind kind) {
-  if (kind == Kind::all_pairs && count > most_for_all_pairs) return;
+  if (kind == Kind::all_pairs && count > max_for_all_pairs) return;
   for (const int threads : {1, 2}) {
     const Case what{condition, count, kind, threads};
     register_case(path_of("step", case_path(what)), what);

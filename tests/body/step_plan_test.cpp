@@ -28,7 +28,7 @@ TEST(StepPlan, FillsEachIntervalWithItsSteps) {
       EXPECT_EQ(plan.intervals_begun(n), n == first ? interval : interval + 1) << n;
     }
   }
-  EXPECT_EQ(plan.most_parts(), 7);
+  EXPECT_EQ(plan.max_parts(), 7);
   EXPECT_EQ(plan.divided(), 3);
 }
 
@@ -150,7 +150,7 @@ TEST(PlanOfAScene, DividesStepsWhereBonesAreFastAndForAWhileAfter) {
   EXPECT_GT(setup.plan.parts(10), 1);
   EXPECT_GT(setup.plan.parts(12), 1) << "the flesh still swings";
   EXPECT_EQ(setup.plan.parts(59), 1);
-  EXPECT_LE(farthest_carried(setup), most_carried * (1 + 1e-12));
+  EXPECT_LE(farthest_carried(setup), max_carried * (1 + 1e-12));
 }
 
 TEST(FrameTimes, EndWithTheDuration) {
@@ -186,7 +186,7 @@ TEST(PlanOfAScene, EndsWithTheDuration) {
 TEST(PlanOfAScene, LeavesAStepThatIsGivenAsItIs) {
   const auto setup = swinging(1e-3);
   EXPECT_TRUE(setup.plan.is_even());
-  EXPECT_GT(farthest_carried(setup), most_carried);
+  EXPECT_GT(farthest_carried(setup), max_carried);
 }
 
 }  // namespace sinew::step_plan_test

@@ -47,7 +47,7 @@ TEST(VolumeWeights, AreOneFarFromSurfacesAndNowhereMoreThanTheMost) {
   const Points rest = test::fcc_box(21, 21, 21, r);
   for (const double ratio : {0.3, 0.4, 0.45, 0.49}) {
     const Material material = material_of(ratio);
-    const double most = most_volume_weight(material);
+    const double most = max_volume_weight(material);
     EXPECT_GT(most, 1.1);
     EXPECT_LE(most, 2);
     const std::vector<double> weights = volume_weights(rest, material, {});

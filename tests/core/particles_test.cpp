@@ -78,13 +78,13 @@ TEST(ClosestPacking, HasTwelveNeighborsAndThePaperCounts) {
   for (const Points& points : {test::fcc_box(11, 11, 49, r), test::hcp_ball(6, r)}) {
     const auto first = neighbors_within(points, rest_neighbor_range(r));
     const auto second = neighbors_within(points, 1.01 * second_distance(r));
-    std::size_t most = 0, most_second = 0;
+    std::size_t most = 0, max_second = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       most = std::max(most, first.of(i).size());
-      most_second = std::max(most_second, second.of(i).size());
+      max_second = std::max(max_second, second.of(i).size());
     }
     EXPECT_EQ(most, 12u);
-    EXPECT_EQ(most_second, 18u);
+    EXPECT_EQ(max_second, 18u);
   }
   EXPECT_EQ(test::fcc_box(11, 11, 49, r).size(), 2965u);
 }

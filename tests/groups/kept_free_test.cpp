@@ -23,7 +23,7 @@ Bar bar() {
 }
 
 Grouping groups_of(const Bar& bar, const AskedFree& asked) {
-  GroupSizes sizes{.joint_distance = 0.7, .least = 256};
+  GroupSizes sizes{.joint_distance = 0.7, .min_particles = 256};
   sizes.kept_free = kept_free(bar.body, asked);
   return static_groups(bar.body, {false, true}, sizes);
 }
@@ -69,7 +69,7 @@ TEST(KeptFree, WhatABoneHolds) {
 
 TEST(KeptFree, ByDynamicGroupsToo) {
   const Bar bar = kept_free_test::bar();
-  DynamicOptions options{{.joint_distance = 0.7, .least = 256}, 0.03};
+  DynamicOptions options{{.joint_distance = 0.7, .min_particles = 256}, 0.03};
   options.sizes.kept_free = kept_free(bar.body, {.surface_distance = 4 * r});
   Simulation simulation = bar.begin();
   simulation.group_as_it_moves(options);

@@ -25,7 +25,7 @@ using Iterative = Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper,
 
 constexpr double r = 0.01, stiffness = 1, mass = 1;  // of bonds and particles
 constexpr int lengths_of_height = 10;
-constexpr std::size_t most_solved_directly = 30'000;
+constexpr std::size_t max_solved_directly = 30'000;
 
 /// A square beam, n cells across, clamped at z = 0.
 class Beam {
@@ -105,7 +105,7 @@ class Beam {
     Matrix K(freedoms(), freedoms());
     K.setFromTriplets(entries.begin(), entries.end());
     matrix_ = K;
-    if (rest_.size() <= most_solved_directly) {
+    if (rest_.size() <= max_solved_directly) {
       direct_ = std::make_unique<Direct>(matrix_);
     } else {
       iterative_ = std::make_unique<Iterative>(matrix_);

@@ -134,7 +134,7 @@ struct Rung {
   const char* name;
   Points (*rest)();
   MaterialModel model;
-  double most_central = 0.5;  ///< a larger ratio of that form takes too many steps for a test
+  double max_central = 0.5;  ///< a larger ratio of that form takes too many steps for a test
 };
 
 class DampingRatio : public testing::TestWithParam<Rung> {};
@@ -143,7 +143,7 @@ TEST_P(DampingRatio, IsThatOfABodyThatRings) {
   const Points rest = GetParam().rest();
   for (const auto form : {DampingForm::paper, DampingForm::symmetric, DampingForm::central})
     for (const double ratio : {0.02, 0.1, 0.5}) {
-      if (form == DampingForm::central && ratio > GetParam().most_central) continue;
+      if (form == DampingForm::central && ratio > GetParam().max_central) continue;
       Settings settings = test::unbound(test::box_scene(25));
       settings.material.model = GetParam().model;
       settings.material.damping_form = form;

@@ -61,7 +61,7 @@ Particles about_their_bones(const Scene& scene, double angle, double share, cons
 /// the largest distances (single precision 2e-6), and for a particle at a distance rho from its
 /// bone, no better than the accuracy of its direction.
 void expect_reference_in(Precision precision, const Scene& scene, const Particles& particles,
-                         double least_rho = r) {
+                         double min_rho = r) {
   Forces expected;
   bone_forces(particles, scene.body, scene.pose, expected);
   const double energy = bone_energy(particles, scene.body, scene.pose);
@@ -69,7 +69,7 @@ void expect_reference_in(Precision precision, const Scene& scene, const Particle
   for (const Vec3& force : expected.bone) scale = std::max(scale, force.norm());
   const bool doubles = precision == Precision::binary64;
   const double rounding = doubles ? 1e-12 : 2e-6;
-  const double blurred = scene.stiffness() * 10 * r * (doubles ? 1e-15 : 1e-9) / least_rho;
+  const double blurred = scene.stiffness() * 10 * r * (doubles ? 1e-15 : 1e-9) / min_rho;
   Simulation simulation =
       test::simulation_from(test::in(precision, scene.settings), scene.rest, particles, 1e-3);
   const Points found = simulation.forces().bone;
@@ -79,9 +79,9 @@ void expect_reference_in(Precision precision, const Scene& scene, const Particle
   EXPECT_NEAR(simulation.energies().bone, energy, rounding * (energy + scale * r));
 }
 
-void expect_reference(const Scene& scene, const Particles& particles, double least_rho = r) {
+void expect_reference(const Scene& scene, const Particles& particles, double min_rho = r) {
   for (const Precision precision : test::precisions)
-    expect_reference_in(precision, scene, particles, least_rho);
+    expect_reference_in(precision, scene, particles, min_rho);
 }
 
 TEST(BoneSlots, GiveTheForcesOfBonesOnAShakenBody) {

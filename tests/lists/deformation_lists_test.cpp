@@ -11,13 +11,13 @@ struct Story {
   std::string name;
   Settings settings;
   Points rest;
-  double duration = 0.5;          ///< s
-  double factor = 0.5;            ///< of the step's limit
-  double shake = 0;               ///< at the start, in radii
-  double speed = 0;               ///< at the start, m/s
-  Vec3 velocity = Vec3::Zero();   ///< at the start, of all particles, m/s
-  Vec3 aside = Vec3::Zero();      ///< of the second half more, of the first less, m/s
-  std::int64_t least_listed = 1;  ///< pieces in the run
+  double duration = 0.5;         ///< s
+  double factor = 0.5;           ///< of the step's limit
+  double shake = 0;              ///< at the start, in radii
+  double speed = 0;              ///< at the start, m/s
+  Vec3 velocity = Vec3::Zero();  ///< at the start, of all particles, m/s
+  Vec3 aside = Vec3::Zero();     ///< of the second half more, of the first less, m/s
+  std::int64_t min_listed = 1;   ///< pieces in the run
 
   friend void PrintTo(const Story& story, std::ostream* out) { *out << story.name; }
 };
@@ -97,7 +97,7 @@ Story melt() {
   story.duration = 0.4;
   story.shake = 0.3;
   story.speed = 1.2;
-  story.least_listed = 5;
+  story.min_listed = 5;
   return story;
 }
 
@@ -119,7 +119,7 @@ Story travel() {
                            test::track("upper", {test::bend_key(0, 0), test::bend_key(0.5, 60)})};
   story.settings.tracks[0].interpolation = Interpolation::linear;
   story.velocity = shift / 0.5;
-  story.least_listed = 0;
+  story.min_listed = 0;
   return story;
 }
 
@@ -252,7 +252,7 @@ TEST_P(ListsThroughStories, HoldThePairsThatCellsFind) {
     test::expect_pairs_of_cells(simulation, precision);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GE(simulation.list_counts().listed, story.least_listed);
+  EXPECT_GE(simulation.list_counts().listed, story.min_listed);
 }
 
 /// Every third particle without a bone.

@@ -24,7 +24,7 @@ std::vector<double> some_values(std::size_t count) {
 }
 
 TEST(DrawnPlaces, AreAllOfAShortLine) {
-  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, most_drawn}) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, max_drawn}) {
     const auto places = drawn_indices(std::vector<double>(count, 1.0));
     ASSERT_EQ(places.size(), count);
     for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(places[i], i);
@@ -32,13 +32,13 @@ TEST(DrawnPlaces, AreAllOfAShortLine) {
 }
 
 TEST(DrawnPlaces, OfALongLineAreFewInOrderAndKeepItsExtremesWhereverTheyAre) {
-  for (const std::size_t count : {most_drawn + 1, 2 * most_drawn - 1, std::size_t{100'000}})
+  for (const std::size_t count : {max_drawn + 1, 2 * max_drawn - 1, std::size_t{100'000}})
     for (const std::size_t at : {std::size_t{0}, std::size_t{1}, count / 3, count - 2, count - 1}) {
       std::vector<double> values = some_values(count);
       values[at] = 2000;
       values[count - 1 - at] = at + at + 1 == count ? 2000 : -2000;
       const auto places = drawn_indices(values);
-      EXPECT_LE(places.size(), most_drawn);
+      EXPECT_LE(places.size(), max_drawn);
       EXPECT_TRUE(std::is_sorted(places.begin(), places.end(), std::less_equal<>())) << count;
       EXPECT_TRUE(std::binary_search(places.begin(), places.end(), at)) << count << ' ' << at;
       EXPECT_TRUE(std::binary_search(places.begin(), places.end(), count - 1 - at)) << count;
@@ -51,7 +51,7 @@ TEST(DrawnPlaces, KeepAGapAndThePeakBesideIt) {
     values[at] = nan;
     values[at - 1] = values[at + 1] = 2000;
     const auto places = drawn_indices(values);
-    EXPECT_LE(places.size(), most_drawn);
+    EXPECT_LE(places.size(), max_drawn);
     ASSERT_TRUE(std::binary_search(places.begin(), places.end(), at)) << at;
     EXPECT_TRUE(std::binary_search(places.begin(), places.end(), at - 1) ||
                 std::binary_search(places.begin(), places.end(), at + 1))
@@ -133,9 +133,9 @@ TEST(PageJson, ThinsEveryLineAndTheAngles) {
   data.angles = some_values(data.times.size());
   data.charts = {of_lines({{"a", data.angles}, {"b", data.angles}})};
   const Json json = Json::parse(page_json(data));
-  EXPECT_LE(json["angles"].size(), most_drawn);
+  EXPECT_LE(json["angles"].size(), max_drawn);
   for (const Json& line : json["charts"][0]["lines"])
-    EXPECT_LE(line["points"].size(), most_drawn) << line["name"];
+    EXPECT_LE(line["points"].size(), max_drawn) << line["name"];
 }
 
 TEST(PageJson, HasAnglesOnlyWhereThereAreBones) {

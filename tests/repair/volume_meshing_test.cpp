@@ -19,7 +19,7 @@ double volume_of_all(const VolumeMesh& mesh) {
   return sum;
 }
 
-double least_volume(const VolumeMesh& mesh) {
+double min_volume(const VolumeMesh& mesh) {
   double least = volume_of_all(mesh);
   for (const VolumeElement& element : mesh.elements)
     least = std::min(least, volume_of(mesh, element));
@@ -47,7 +47,7 @@ TEST(VolumeMeshing, HexahedraFillTheBoxAndMeetAtCuts) {
   const VolumeMesh mesh = hexahedra(box, 0.6, {{{0.31}, {}, {1.4, 1.41}}});
   EXPECT_NEAR(volume_of_all(mesh), 6, 1e-12);
   EXPECT_NEAR(skin_of(mesh), 2 * (2 + 3 + 6), 1e-12);
-  EXPECT_GT(least_volume(mesh), 0);
+  EXPECT_GT(min_volume(mesh), 0);
   const auto has = [&](int axis, double value) {
     return std::any_of(mesh.nodes.begin(), mesh.nodes.end(),
                        [&](const Vec3& node) { return node[axis] == value; });
@@ -65,7 +65,7 @@ TEST(VolumeMeshing, TetrahedraFillABallAndKeepTheEdgesOfACylinder) {
   const Triangles ball = solid(SolidShape::sphere, {1, 1, 1});
   const VolumeMesh of_ball = tetrahedra(ball, 0.15);
   EXPECT_NEAR(volume_of_all(of_ball) / volume(ball), 1, 0.03);
-  EXPECT_GT(least_volume(of_ball), 0);
+  EXPECT_GT(min_volume(of_ball), 0);
   const Triangles cylinder = solid(SolidShape::cylinder, {1, 1, 1});
   const VolumeMesh of_cylinder = tetrahedra(cylinder, 0.2);
   EXPECT_NEAR(volume_of_all(of_cylinder) / volume(cylinder), 1, 0.02);

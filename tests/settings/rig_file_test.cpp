@@ -69,7 +69,7 @@ TEST_F(RigFile, HoldsBonesAndTracks) {
   const Skeleton skeleton = skeleton_of(settings);
   ASSERT_EQ(skeleton.size(), 2u);
   EXPECT_EQ(skeleton.bones[1].tail(), Vec3(0, 0, 3));
-  EXPECT_NEAR(skeleton.bones[0].limits.most_twist, radians(45), 1e-15);
+  EXPECT_NEAR(skeleton.bones[0].limits.max_twist, radians(45), 1e-15);
   const Motion motion = motion_of(settings, skeleton);
   ASSERT_EQ(motion.tracks.size(), 1u);
   EXPECT_EQ(last_key(motion), 2);

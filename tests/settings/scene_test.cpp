@@ -120,6 +120,22 @@ TEST_F(SceneTest, WindowsLinesAndByteOrderMarkAreRead) {
   EXPECT_EQ(read(text).body.radius, 0.01);
 }
 
+TEST_F(SceneTest, OldNamesOfKeysCountWithAWarning) {
+  const std::string scene = std::string(small_scene) + "hierarchy: {least: 100}\n";
+  const Settings old = read(scene), set = read(scene, {"hierarchy.least=200"});
+  EXPECT_EQ(old.hierarchy.min_particles, 100);
+  EXPECT_EQ(set.hierarchy.min_particles, 200);
+  ASSERT_EQ(old.warnings.size(), 1u);
+  EXPECT_TRUE(holds(old.warnings[0], "scene.yaml:"));
+  EXPECT_TRUE(holds(old.warnings[0], "hierarchy.least is now called hierarchy.min_particles"));
+  EXPECT_TRUE(holds(set.warnings.back(), "--set hierarchy.least=200: "));
+  EXPECT_TRUE(
+      read(std::string(small_scene) + "hierarchy: {min_particles: 100}\n").warnings.empty());
+  EXPECT_TRUE(
+      holds(message(std::string(small_scene) + "hierarchy: {least: 100, min_particles: 99}\n"),
+            "remove one of them"));
+}
+
 TEST_F(SceneTest, MeshIsRelativeToTheSceneAndOpensFromHere) {
   folder.write("shapes/box.obj", "o box\n");
   std::string text = small_scene;

@@ -210,7 +210,7 @@ TEST(Relaxation, RefusesLoadsBelowRoundingButNotNone) {
 
 TEST(Relaxation, DoesNotCallEquilibriumWhatIsNone) {
   LoadSteps steps = two_moments();
-  steps.most_iterations = 60;
+  steps.max_iterations = 60;
   const Machine machine = gripped();
   Simulation simulation = machine.relaxing(steps);
   test::expect_error(

@@ -284,7 +284,7 @@ TEST(Golden, ConstantsAreWhatTheyWere) {
     Settings settings = test::box_scene(height);
     settings.material.b = b;
     const Material material = test::material_of(settings);
-    text += row("rest", {least_rise(material, Packing::fcc), least_rise(material, Packing::hcp)});
+    text += row("rest", {min_rise(material, Packing::fcc), min_rise(material, Packing::hcp)});
   }
   test::expect_golden("stepping/golden/constants.csv", text);
 }

@@ -178,7 +178,7 @@ class Made(unittest.TestCase):
 
     def test_groups_refuse_a_pose_and_go_on(self):
         for dynamic in (False, True):
-            words = {"hierarchy": {"enabled": True, "dynamic": dynamic, "least": 64}}
+            words = {"hierarchy": {"enabled": True, "dynamic": dynamic, "min_particles": 64}}
             simulation = sinew.Simulation(sinew.make_scene(BAR | words, self.body), self.body)
             with self.assertRaises(sinew.Error) as raised:
                 simulation.set_pose({"high": (1, 0, 0, 0)})

@@ -144,7 +144,7 @@ class Static(unittest.TestCase):
 
     def test_check_tells_iterations_instead_of_steps(self):
         said = sinew("check", self.scene(CLAMP.replace("FORCE", "5"))).stdout
-        self.assertIn("most_iterations_per_frame: 200000", said)
+        self.assertIn("max_iterations_per_frame: 200000", said)
         self.assertNotIn("time_step", said)
 
     def refuse(self, machine, *settings, says):

@@ -206,11 +206,11 @@ TEST(Loads, OfPressuresHoldForStepsWhileTheSurfaceTurnsEvenly) {
   const Followed turning = followed(rest, [](const Vec3& at, int step) -> Vec3 {
     return Eigen::AngleAxisd(in_step * step, Vec3(1, 2, 3).normalized()) * at;
   });
-  EXPECT_LT(turning.found, 320 / PressedFaces::most_steps + 6);
+  EXPECT_LT(turning.found, 320 / PressedFaces::max_steps + 6);
   EXPECT_LT(turning.farthest, 8.5 * in_step);  // from the middle of 16 steps
   EXPECT_LT(turning.mean, 2e-4);               // none of it lasts
   const Followed resting = followed(rest, [](const Vec3& at, int) { return at; });
-  EXPECT_LT(resting.found, 320 / PressedFaces::most_steps + 6);
+  EXPECT_LT(resting.found, 320 / PressedFaces::max_steps + 6);
   EXPECT_LT(resting.farthest, 1e-12);
 }
 

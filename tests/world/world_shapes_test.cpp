@@ -165,7 +165,7 @@ TEST(WorldShapes, AMeshIsNotEvaluatedFarFromIt) {
 }
 
 /// The least distance of points all over a box.
-double least_distance(const Shape& shape, const Box& box, int n) {
+double min_distance(const Shape& shape, const Box& box, int n) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j)
@@ -183,7 +183,7 @@ TEST(WorldShapes, NoBoxWithPointsInRangeIsMissed) {
       const Vec3 center = 2 * test::random_vector(random);
       const Vec3 half = test::random_vector(random).cwiseAbs();
       const Box box(Vec3(center - half), Vec3(center + half));
-      const double least = least_distance(shape, box, 6);
+      const double least = min_distance(shape, box, 6);
       EXPECT_TRUE(may_be_near(shape, box, std::max(0.0, least) + 1e-9)) << shape.index();
     }
 }

@@ -20,7 +20,7 @@
 namespace sinew {
 namespace {
 
-constexpr int most_threads = 1024;
+constexpr int max_threads = 1024;
 
 struct HelpOfSettings {};  ///< thrown where it is asked for
 struct Completions {};     ///< the same
@@ -48,7 +48,7 @@ void declare_common(CLI::App& app, const About& about, Given& given) {
   list.add_flag("--verbose", given.common.verbose, "Print all results, with all their digits");
   list.add("--threads", given.common.threads, "Threads to use; 0: one per core")
       .type_name("N")
-      .range(0, most_threads);
+      .range(0, max_threads);
   app.add_flag_callback("--completions", [] { throw Completions(); })
       ->trigger_on_parse()
       ->group("");

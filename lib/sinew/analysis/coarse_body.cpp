@@ -15,8 +15,8 @@
 namespace sinew {
 namespace {
 
-constexpr double least_share = 0.4;         // of a site that is kept
-constexpr std::size_t least_neighbors = 6;  // half of those inside
+constexpr double min_share = 0.4;         // of a site that is kept
+constexpr std::size_t min_neighbors = 6;  // half of those inside
 
 using Shares = std::map<FccSite, double>;
 
@@ -59,7 +59,7 @@ Shares kept(Shares shares) {
         ++bonds;
         if (most == shares.end() || other->second > most->second) most = other;
       });
-      if ((at->second >= least_share && bonds >= least_neighbors) || most == shares.end()) {
+      if ((at->second >= min_share && bonds >= min_neighbors) || most == shares.end()) {
         ++at;
         continue;
       }

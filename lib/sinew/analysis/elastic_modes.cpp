@@ -20,9 +20,9 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr Eigen::Index kept_modes = 6, answers = 4;  // see ModeFinder::widen()
-constexpr double most_particles = 8'000;             // still larger ones are coarsened to that many
-constexpr std::size_t least_bonds = 3;               // fewer do not hold a particle
-constexpr int most_rounds = 60, order = 3;           // of the polynomials to begin with
+constexpr double max_particles = 8'000;              // still larger ones are coarsened to that many
+constexpr std::size_t min_bonds = 3;                 // fewer do not hold a particle
+constexpr int max_rounds = 60, order = 3;            // of the polynomials to begin with
 constexpr double converged = 1e-4;                   // of eigenvalues
 constexpr double floppy = 1e-3;  // share of a smooth mode's w^2 below which one is no mode
 
@@ -32,7 +32,7 @@ std::vector<std::size_t> largest_part(const Body& body) {
   UnionFind sets(body.rest.size());
   for (std::size_t i = 0; i < body.rest.size(); ++i)
     for (const std::uint32_t j : near.of(i))
-      if (near.of(i).size() >= least_bonds && near.of(j).size() >= least_bonds)
+      if (near.of(i).size() >= min_bonds && near.of(j).size() >= min_bonds)
         sets.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
   std::vector<std::vector<std::size_t>> parts(body.rest.size());
   for (std::size_t i = 0; i < body.rest.size(); ++i)
@@ -108,7 +108,7 @@ class ModeFinder {
     const double smooth = squared_[0];
     const NearlySolved solver(body_, 0.1 * smooth);
     if (!solver.sound()) return result();
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
       const Vector before = squared_;
       const Matrix residual = stiffness_ - body_.with_mass(modes_) * squared_.asDiagonal();
       const Matrix corrections = without_rigid(solver.solve(residual));
@@ -253,9 +253,9 @@ double ElasticModes::damping_ratio(double damping) const {
 }
 
 double ElasticModes::damping_for(double ratio) const {
-  constexpr double most_followed = 0.9;  // beyond, in proportion
+  constexpr double max_followed = 0.9;  // beyond, in proportion
   if (empty() || !(ratio > 0) || !(rates(0, 0) > 0)) return 0;
-  const double wanted = std::min(ratio, most_followed);
+  const double wanted = std::min(ratio, max_followed);
   double low = 0, high = 2 * wanted * frequency() / rates(0, 0);
   for (int n = 0; n < 20 && damping_ratio(high) < wanted; ++n) low = high, high *= 1.5;
   for (int n = 0; n < 40; ++n) {
@@ -267,7 +267,7 @@ double ElasticModes::damping_for(double ratio) const {
 
 ElasticModes elastic_modes(const Body& body) {
   int times = 1;
-  while (static_cast<double>(body.rest.size()) / std::pow(times, 3) > most_particles) ++times;
+  while (static_cast<double>(body.rest.size()) / std::pow(times, 3) > max_particles) ++times;
   return times == 1 ? modes_of(body, false) : coarse_modes(body, times);
 }
 

@@ -78,7 +78,7 @@ std::function<double(const Points&)> energy_of(const Material& material, const P
 
 }  // namespace
 
-double least_rise(const Material& material, Packing packing) {
+double min_rise(const Material& material, Packing packing) {
   const double r = material.pair.r;
   const Points rest = cluster(packing, r);
   const auto energy = energy_of(material, rest);
@@ -97,8 +97,8 @@ double least_rise(const Material& material, Packing packing) {
 }
 
 bool rests_stably(const Material& material) {
-  return least_rise(material, Packing::fcc) > rounding_rise &&
-         least_rise(material, Packing::hcp) > rounding_rise;
+  return min_rise(material, Packing::fcc) > rounding_rise &&
+         min_rise(material, Packing::hcp) > rounding_rise;
 }
 
 }  // namespace sinew

@@ -18,7 +18,7 @@ namespace sinew {
 
 /// The least rise of the cluster's energy by a strain, per particle, over k (strain r)^2 / 2; below
 /// 0 the packing collapses or swells.
-double least_rise(const Material& material, Packing packing);
+double min_rise(const Material& material, Packing packing);
 
 /// Whether FCC and HCP are stable at rest.
 bool rests_stably(const Material& material);

@@ -136,7 +136,7 @@ constexpr std::size_t neighbors_inside = 12;
 constexpr int rounds = 3, iterations = 120;  // the step is improved after each round
 constexpr double margin = 0.99;              // the iteration converges from below
 constexpr double smallness = 1e-6;           // of displacements, in radii
-constexpr std::size_t most_tried = 100'000;  // beyond, starting would take many seconds
+constexpr std::size_t max_tried = 100'000;   // beyond, starting would take many seconds
 
 /// Of all particles, a column each.
 using Motions = Eigen::Matrix<double, 3, Eigen::Dynamic>;
@@ -238,7 +238,7 @@ double step_limit(Integrator integrator, const Body& body, const WorldLoad& worl
   const PairForce& pair = body.material.pair;
   const bool linear =
       body.material.model != MaterialModel::paper || std::abs(pair.lambda() - 1) < 1e-3;
-  if (integrator == Integrator::explicit_euler || !linear || body.rest.size() > most_tried ||
+  if (integrator == Integrator::explicit_euler || !linear || body.rest.size() > max_tried ||
       !is_thin(body.rest, pair.r))
     return limit;
   return power_step_limit(body, world);

@@ -17,16 +17,16 @@ namespace {
 
 constexpr std::size_t particles_per_search = 1024;
 constexpr std::size_t bonds_inside = 18;
-constexpr double least_factor = 0.1, most_factor = 4;
-constexpr double most_share = 2;
-constexpr double least_difference = 1e-3;  // of a share from that inside
+constexpr double min_factor = 0.1, max_factor = 4;
+constexpr double max_share = 2;
+constexpr double min_difference = 1e-3;  // of a share from that inside
 // Of the least squares: hardly any in a lattice. Elsewhere exact solutions ask for bonds that push
 // apart, and a body with factors this near to 1 is stiffer.
 constexpr double regularization = 1e-6 / 18, irregular_regularization = 3e-2 / 18;
 // w^2 of modes at edges over that of waves through the largest weight, by power iteration on cubes
 // and turned ones, for Poisson's ratios up to 0.49.
 constexpr double edges_over_waves = 1.02;
-constexpr double least_offset = 1e-3;  // in radii, of a neighbor's distance from a lattice's
+constexpr double min_offset = 1e-3;  // in radii, of a neighbor's distance from a lattice's
 
 /// The independent parts of a symmetric tensor of fourth order, so that sums of products are those
 /// of the tensors.
@@ -114,14 +114,14 @@ class SurfaceBonds {
     return std::any_of(around.begin(), around.end(), [&](std::uint32_t j) {
       const double d = (rest_[j] - rest_[i]).norm();
       return std::min(std::abs(d - nearest_distance(r_)), std::abs(d - second_distance(r_))) >
-             least_offset * r_;
+             min_offset * r_;
     });
   }
   bool asks(std::size_t i) const { return asks_[i] != nothing; }
   void find_asking() {
     asks_.resize(rest_.size());
     for_each([&](std::size_t i) {
-      const bool other_share = !share_.empty() && std::abs(share_[i] - 1) > least_difference;
+      const bool other_share = !share_.empty() && std::abs(share_[i] - 1) > min_difference;
       asks_[i] = is_irregular(i)                             ? irregular
                  : bonds_of(i) < bonds_inside || other_share ? at_edge
                                                              : nothing;
@@ -164,7 +164,7 @@ class SurfaceBonds {
       parts.col(static_cast<Eigen::Index>(b)) =
           relative_stiffness(length) * relative * relative * fourth_power(X / length);
     }
-    const double share = share_.empty() ? 1 : std::min(share_[i], most_share);
+    const double share = share_.empty() ? 1 : std::min(share_[i], max_share);
     const Eigen::Matrix<double, 15, 15> normal =
         parts * parts.transpose() +
         (asks_[i] == irregular ? irregular_regularization : regularization) * whole.squaredNorm() *
@@ -189,7 +189,7 @@ class SurfaceBonds {
     for (const std::uint32_t j : near_.of(i)) {
       const double mean = (asked(i, j) + asked(j, static_cast<std::uint32_t>(i))) / 2;
       *neighbor++ = j;
-      *factor = std::clamp(mean, least_factor, most_factor) * stiffness_between(i, j);
+      *factor = std::clamp(mean, min_factor, max_factor) * stiffness_between(i, j);
       const Vec3 X = rest_[j] - rest_[i];
       sum += *factor++ * relative_stiffness(X.norm()) / X.squaredNorm() * X * X.transpose();
     }
@@ -206,8 +206,8 @@ class SurfaceBonds {
 };
 
 /// With the largest K_v, over its bonds, of any particle.
-Material least_compressible(Material material, const std::vector<double>& stiffness,
-                            const std::vector<double>& volume) {
+Material with_max_volume_stiffness(Material material, const std::vector<double>& stiffness,
+                                   const std::vector<double>& volume) {
   for (std::size_t i = 0; i < volume.size(); ++i)
     material.volume_stiffness =
         std::max(material.volume_stiffness, volume[i] / value_at(stiffness, i, 1));
@@ -234,7 +234,7 @@ BondFactors bond_factors(const Points& rest, const Material& material,
                          const std::vector<double>& volume) {
   BondFactors factors;
   if (material.bond.second > 0) factors = SurfaceBonds(rest, material, share, stiffness).factors();
-  const Material keeping = least_compressible(material, stiffness, volume);
+  const Material keeping = with_max_volume_stiffness(material, stiffness, volume);
   if (keeping.volume_stiffness <= 0) return factors;
   factors.volume_weight = volume_weights(rest, keeping, share);
   const double most = *std::max_element(factors.volume_weight.begin(), factors.volume_weight.end());

@@ -9,7 +9,7 @@ namespace sinew {
 StepPlan::StepPlan(double step, int per_interval, std::vector<int> parts,
                    std::optional<WholeSteps> last)
     : step_(step), per_interval_(per_interval), parts_(std::move(parts)), last_(last) {
-  if (most_parts() == 1 && !last_) return;
+  if (max_parts() == 1 && !last_) return;
   first_ = {0};
   for (const int count : parts_)
     first_.push_back(first_.back() + std::int64_t{count} * per_interval_);
@@ -63,7 +63,7 @@ int StepPlan::parts(int index) const {
                                                          : 1;
 }
 
-int StepPlan::most_parts() const {
+int StepPlan::max_parts() const {
   return parts_.empty() ? 1 : *std::max_element(parts_.begin(), parts_.end());
 }
 

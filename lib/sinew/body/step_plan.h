@@ -26,7 +26,7 @@ struct Stepping {
 
 // A bond that snaps drives a particle by (b - a) sqrt(k lambda / 3m) dt, 0.1 r at half the limit;
 // faster than several bonds at once is only an unstable run.
-inline constexpr double most_radii_per_step = 0.25;
+inline constexpr double max_radii_per_step = 0.25;
 
 /// Of an interval, before they are divided.
 struct WholeSteps {
@@ -55,7 +55,7 @@ class StepPlan {
 
   /// Into how many parts the steps of an interval are divided.
   int parts(int index) const;
-  int most_parts() const;
+  int max_parts() const;
   int divided() const;  ///< intervals of which the steps are
   const std::optional<WholeSteps>& last() const { return last_; }
 

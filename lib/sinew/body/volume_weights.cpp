@@ -87,7 +87,7 @@ std::vector<double> own_volume_weights(const Points& rest, double radius) {
   return own_weights(rest, neighbors_within(rest, rest_neighbor_range(radius)), radius);
 }
 
-double most_volume_weight(const Material& material) {
+double max_volume_weight(const Material& material) {
   const PackingStiffness packing = material.packing();
   const double allowed = std::max(2 * stiffest_of_rough_surfaces,
                                   surface_over_packing * highest_frequency_factor(packing));
@@ -101,7 +101,7 @@ std::vector<double> volume_weights(const Points& rest, const Material& material,
                                    const std::vector<double>& share) {
   Spreading spreading(rest, material.pair.r, share);
   if (material.bond.second > 0)
-    for (int pass = 0; pass < passes; ++pass) spreading.spread(most_volume_weight(material));
+    for (int pass = 0; pass < passes; ++pass) spreading.spread(max_volume_weight(material));
   return std::move(spreading.weights());
 }
 

@@ -29,7 +29,7 @@ std::vector<double> own_volume_weights(const Points& rest, double radius);
 
 /// No particle has more than this many times the weight of one inside: 2, or with which waves take
 /// as short a step as modes at surfaces do anyway.
-double most_volume_weight(const Material& material);
+double max_volume_weight(const Material& material);
 
 /// Of particles at `rest` (m), with `share` as in bond_factors(). Where second neighbors have no
 /// bonds, none takes over.

@@ -96,7 +96,7 @@ struct MaterialOptions {
   double friction = 0;
 };
 
-inline constexpr std::size_t most_relaxation_branches = 4;
+inline constexpr std::size_t max_relaxation_branches = 4;
 
 /// Whether bonds of first and second neighbors, with factors, make the material isotropic in that
 /// packing.

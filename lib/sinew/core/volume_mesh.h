@@ -19,7 +19,7 @@ namespace sinew {
 
 enum class ElementKind { hexahedron8, hexahedron20, tetrahedron4, tetrahedron10 };
 
-inline constexpr int most_element_nodes = 20;
+inline constexpr int max_element_nodes = 20;
 
 constexpr bool is_hexahedron(ElementKind kind) {
   return kind == ElementKind::hexahedron8 || kind == ElementKind::hexahedron20;
@@ -32,7 +32,7 @@ constexpr int nodes_of(ElementKind kind) {
 
 struct VolumeElement {
   ElementKind kind = ElementKind::tetrahedron4;
-  std::array<std::uint32_t, most_element_nodes> nodes = {};  ///< the first nodes_of(kind)
+  std::array<std::uint32_t, max_element_nodes> nodes = {};  ///< the first nodes_of(kind)
 
   std::span<const std::uint32_t> used() const {
     return {nodes.data(), static_cast<std::size_t>(nodes_of(kind))};
@@ -84,8 +84,8 @@ std::vector<ElementFace> boundary_faces(const VolumeMesh& mesh);
 
 /// Of each node: its shape function, and the derivatives by the local coordinates.
 struct ShapeFunctions {
-  std::array<double, most_element_nodes> value = {};
-  std::array<Vec3, most_element_nodes> slope = {};
+  std::array<double, max_element_nodes> value = {};
+  std::array<Vec3, max_element_nodes> slope = {};
 };
 
 /// Local coordinates lie from -1 to 1 in hexahedra; in tetrahedra they are three of the four that

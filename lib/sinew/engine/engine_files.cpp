@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t particles_per_piece = 4096;
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 40;
+constexpr std::uint64_t max_bytes = std::uint64_t{1} << 40;
 
-std::size_t most_in_a_row(const NeighborLists& lists) {
+std::size_t max_in_a_row(const NeighborLists& lists) {
   std::size_t most = 0;
   for (std::size_t i = 0; i < lists.size(); ++i) most = std::max(most, lists.of(i).size());
   return most;
@@ -42,8 +42,8 @@ class Rows {
                             : body.factors.volume_weight;
     for (std::size_t i = 0; i < body.rest.size(); ++i)
       shape_.bones = std::max(shape_.bones, static_cast<std::int32_t>(body.binding.of(i).size()));
-    shape_.nearest = static_cast<std::int32_t>(most_in_a_row(bonds_.nearest.neighbors));
-    shape_.second = static_cast<std::int32_t>(most_in_a_row(bonds_.second.neighbors));
+    shape_.nearest = static_cast<std::int32_t>(max_in_a_row(bonds_.nearest.neighbors));
+    shape_.second = static_cast<std::int32_t>(max_in_a_row(bonds_.second.neighbors));
   }
 
   const RowShape& shape() const { return shape_; }
@@ -118,7 +118,7 @@ void write_particles(const fs::path& file, const EngineRun& run, const Rows& row
 template <class Value>
 Value read_archive(const fs::path& file) {
   try {
-    return unarchived<Value>(read_file(file, most_bytes));
+    return unarchived<Value>(read_file(file, max_bytes));
   } catch (const Error& error) {
     if (std::string_view(error.what()).starts_with(file.string())) throw;
     throw error.with_context({file.string()});
@@ -215,7 +215,7 @@ void write_engine_piece(const fs::path& file, const std::vector<double>& numbers
 }
 
 std::vector<double> read_engine_piece(const fs::path& file) {
-  const std::string bytes = read_file(file, most_bytes);
+  const std::string bytes = read_file(file, max_bytes);
   if (bytes.size() % sizeof(double) != 0) throw not_a_piece(file);
   std::vector<double> numbers(bytes.size() / sizeof(double));
   if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());

@@ -139,10 +139,10 @@ Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& 
 
 namespace {
 
-constexpr std::size_t most_arrows = 900;  // more would hide each other
-constexpr double longest_arrow = 0.25;    // of the body's longest side
-constexpr double shortest_arrow = 0.1;    // of the longest: shorter ones are dots
-constexpr double least_turn = 0.01;       // rad: below it the bones do not move
+constexpr std::size_t max_arrows = 900;  // more would hide each other
+constexpr double longest_arrow = 0.25;   // of the body's longest side
+constexpr double shortest_arrow = 0.1;   // of the longest: shorter ones are dots
+constexpr double min_turn = 0.01;        // rad: below it the bones do not move
 constexpr std::size_t moments_without_turn = 5;
 
 double largest_turn(const RunFiles& run, const RunFrame& frame) {
@@ -283,7 +283,7 @@ std::size_t DrawnRun::frame_at(double time) const {
 std::vector<std::size_t> DrawnRun::key_frames() const {
   const std::vector<double>& angle = overview_.angle;
   const double most = *std::max_element(angle.begin(), angle.end());
-  if (most < least_turn) return spread_over(angle.size());
+  if (most < min_turn) return spread_over(angle.size());
   std::size_t half = 0, farthest = 0;
   while (angle[half] < most / 2) ++half;
   for (std::size_t i = 0; i < angle.size(); ++i)
@@ -321,7 +321,7 @@ void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView
   const double size = bounds(positions_of(run_.body.particles)).sizes().maxCoeff();
   const double strongest = drawn.range.high;
   if (!(strongest > 0)) return;
-  const std::size_t stride = std::max<std::size_t>(1, vectors.size() / most_arrows);
+  const std::size_t stride = std::max<std::size_t>(1, vectors.size() / max_arrows);
   for (std::size_t i = 0; i < vectors.size(); i += stride) {
     const double force = vectors[i].norm();
     if (!(force > shortest_arrow * strongest) || !is_selected(i)) continue;

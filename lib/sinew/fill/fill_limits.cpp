@@ -41,7 +41,7 @@ double bytes_per_particle(const PackOptions& options) {
   return is_lattice(options.packing) ? bytes_on_sites : bytes_elsewhere;
 }
 
-constexpr double most_ids = std::numeric_limits<std::int32_t>::max();
+constexpr double max_ids = std::numeric_limits<std::int32_t>::max();
 constexpr double farthest_origin = 1e4;  // lengths of the body
 constexpr double enough = 100;           // particles at a proposed radius
 constexpr double finest = 400;  // radii along the box, in the search for a radius that fits
@@ -78,8 +78,8 @@ void refuse_without_volume(const Triangles& surface) {
 void refuse_too_many(const Box& box, const PackOptions& options, double volume, double radius) {
   const double particles = volume / volume_per_particle(radius), memory = available_memory();
   const double bytes = bytes_needed(box, options, volume, radius);
-  if (particles <= most_ids && bytes <= memory) return;
-  double fits = std::max(radius, radius_for_count(volume, most_ids));
+  if (particles <= max_ids && bytes <= memory) return;
+  double fits = std::max(radius, radius_for_count(volume, max_ids));
   for (int round = 0; bytes_needed(box, options, volume, fits) > memory && round < 5000; ++round)
     fits *= 1.02;
   throw bad_input("the radius " + three_digits(radius) + " m gives about " +
@@ -141,11 +141,11 @@ double refuse_without_inside(const BodySpace& space, const PackOptions& options)
     return 0;
   }
   const double share = ambiguous_share(space.surface);
-  if (share > most_ambiguous)
+  if (share > max_ambiguous)
     throw bad_input("the surface has no inside: " + three_digits(100 * share) +
                         " % of the points in its box lie neither clearly inside nor outside (the "
                         "most is " +
-                        three_digits(100 * most_ambiguous) + " %)",
+                        three_digits(100 * max_ambiguous) + " %)",
                     "close its holes, or give a thickness to fill a layer along it");
   return share;
 }
@@ -177,7 +177,7 @@ void refuse_empty(const BodySpace& space, const PackOptions& options, const Fill
 void refuse_found(const FilledSites& filled, const PackOptions& options) {
   const auto count = static_cast<double>(count_of(filled.runs));
   const double memory = available_memory(), bytes = count * bytes_per_particle(options);
-  if (count <= most_ids && bytes <= memory) return;
+  if (count <= max_ids && bytes <= memory) return;
   throw bad_input("the radius " + three_digits(filled.lattice.radius) + " m gives " +
                       three_digits(count) + " particles, which need " + gigabytes(bytes) +
                       " of memory where " + gigabytes(memory) + " are free",

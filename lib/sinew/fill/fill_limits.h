@@ -23,7 +23,7 @@ double ambiguous_share(const Surface& surface);
 
 /// Above this share of ambiguous points a surface has no inside: open shells that can be filled
 /// reach 0.64, random triangles have 0.77, a Moebius strip has 0.87.
-inline constexpr double most_ambiguous = 0.7;
+inline constexpr double max_ambiguous = 0.7;
 
 /// Refuses surfaces without an inside, unless a layer is to be filled. Returns the share of
 /// ambiguous points.

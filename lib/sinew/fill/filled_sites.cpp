@@ -17,8 +17,8 @@ namespace {
 
 constexpr double coarse_sites = 50000;
 constexpr double well_met = 0.02;  // relative error of a count that is accepted
-constexpr int most_rounds = 6;
-constexpr double most_shrink = 3;  // more would be many times the requested sites
+constexpr int max_rounds = 6;
+constexpr double max_shrink = 3;  // more would be many times the requested sites
 
 FilledSites fill_at(const BodySpace& space, const PackOptions& options, double radius) {
   FilledSites filled{
@@ -58,8 +58,8 @@ FilledSites fill_sites(const BodySpace& space, const PackOptions& options, doubl
   };
   const auto miss = [&](const FilledSites& filled) { return std::abs(std::log(share(filled))); };
   double next = best.lattice.radius * std::cbrt(share(best));
-  for (int round = 0; round < most_rounds && miss(best) > well_met; ++round) {
-    FilledSites found = fill_at(space, options, std::max(next, radius / most_shrink));
+  for (int round = 0; round < max_rounds && miss(best) > well_met; ++round) {
+    FilledSites found = fill_at(space, options, std::max(next, radius / max_shrink));
     if (found.runs.empty()) break;
     next = found.lattice.radius * std::cbrt(share(found));
     if (miss(found) < miss(best)) best = std::move(found);

@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr double least_turn = 1e-3, least_shift = 1e-4;  // rad; in lengths of the bone
+constexpr double min_turn = 1e-3, min_shift = 1e-4;  // rad; in lengths of the bone
 // Joints of thin bones on a wide one do not reach across it, in square roots of their sections.
 constexpr double reach_of_joint = 1.5;
 
@@ -25,8 +25,8 @@ RigidFrame relative(const Skeleton& skeleton, const Pose& pose, std::size_t bone
 
 bool differ(const RigidFrame& a, const RigidFrame& b, double length) {
   const Quat turn(Mat3(a.rotation.transpose() * b.rotation));
-  return rotation_vector(turn).norm() > least_turn ||
-         (a.origin - b.origin).norm() > least_shift * length;
+  return rotation_vector(turn).norm() > min_turn ||
+         (a.origin - b.origin).norm() > min_shift * length;
 }
 
 /// Bones that are stiff to each other have the same number: that of the first of them.

@@ -19,7 +19,7 @@ void free_near_surface(const Body& body, double distance, std::vector<std::uint8
   const NeighborLists near = neighbors_within(body.rest, rest_neighbor_range(r));
   std::vector<std::uint32_t> nearest(body.rest.size(), nobody), known;
   for (std::uint32_t i = 0; i < nearest.size(); ++i)
-    if (near.of(i).size() < most_neighbors_at_rest) nearest[i] = i, known.push_back(i);
+    if (near.of(i).size() < max_neighbors_at_rest) nearest[i] = i, known.push_back(i);
   const auto apart = [&](std::uint32_t i, std::uint32_t from) {
     return (body.rest[i] - body.rest[from]).norm();
   };

@@ -29,7 +29,7 @@ constexpr double thinnest = 0.4;
 
 constexpr std::size_t enough_places = 2048;  // to tell sheets
 
-constexpr std::uint8_t unknown = 255, most_levels = 8;
+constexpr std::uint8_t unknown = 255, max_levels = 8;
 constexpr int faces_of_level = 6;
 
 bool holds_seconds(const Body& body) { return body.material.bond.second > 0; }
@@ -89,7 +89,7 @@ class LayerFinder {
   /// Half-planes from the outside in: each particle's level is one above its neighbors' lowest.
   std::vector<std::uint8_t> faces(const std::vector<Layer>& layer) const {
     std::vector<std::uint8_t> level(group_.size(), unknown), face(group_.size(), 0);
-    for (std::uint8_t now = 0; now < most_levels; ++now) {
+    for (std::uint8_t now = 0; now < max_levels; ++now) {
       const auto reached = marked([&](std::uint32_t i, const auto& near) {
         if (level[i] != unknown || layer[i] == Layer::core) return false;
         Vec3 inwards = Vec3::Zero();

@@ -41,14 +41,14 @@ struct GroupSizes {
   /// Particles nearer than this to a joint are free: along the bone, in square roots of the
   /// cross-section of the bone whose head the joint is.
   double joint_distance = 1;
-  std::size_t least = 4096;  ///< particles of a group
+  std::size_t min_particles = 4096;  ///< particles of a group
   /// The same for cubic groups; none: there are none.
   std::optional<double> cubic_distance = {};
-  std::size_t least_cubic = 16384;  ///< particles of a cubic group
+  std::size_t min_cubic = 16384;  ///< particles of a cubic group
   /// By particle id: 1 stays free (kept_free.h); empty: none.
   std::vector<std::uint8_t> kept_free = {};
 
-  std::size_t cubic_from() const { return cubic_distance ? least_cubic : none_cubic; }
+  std::size_t cubic_from() const { return cubic_distance ? min_cubic : none_cubic; }
 };
 
 /// Groups that change as the body moves.
@@ -62,7 +62,7 @@ struct DynamicOptions {
 /// The stretches of a group between which forces act between those particles alone that the layers
 /// take for neighbors, and between all of them. Cubic groups know second neighbors that touch.
 struct StretchRange {
-  double least, least_cubic, most;
+  double min, min_cubic, max;
 };
 StretchRange stretch_range(const Body& body);
 

@@ -53,11 +53,11 @@ Grouping static_groups(const Body& body, const std::vector<bool>& moves, const G
   const NeighborLists near = neighbors_within(body.rest, rest_neighbor_range(body.material.pair.r));
   if (sizes.cubic_distance) {
     group_beyond(*sizes.cubic_distance, 0);
-    separate(near, sizes.least_cubic, group);
+    separate(near, sizes.min_cubic, group);
     free_sheets(body, group);
   }
   group_beyond(sizes.joint_distance, static_cast<std::int32_t>(group.size()));
-  separate(near, sizes.least, group);
+  separate(near, sizes.min_particles, group);
   return make_grouping(body, std::move(group), sizes.cubic_from());
 }
 

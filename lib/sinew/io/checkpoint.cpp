@@ -21,8 +21,8 @@ constexpr std::uint32_t byte_order_mark = 0x01020304;
 constexpr std::uint32_t format_version = 6;
 constexpr std::size_t name_size = 8;
 // Bonds: 18 neighbors at rest, from both sides; branches of them; positions, velocities, order.
-constexpr std::size_t most_before_count = 4096;  // bytes
-constexpr std::uint64_t most_bytes_per_particle = 1280, most_bytes_beside = 1 << 20;
+constexpr std::size_t max_before_count = 4096;  // bytes
+constexpr std::uint64_t max_bytes_per_particle = 1280, max_bytes_beside = 1 << 20;
 
 Error no_checkpoint(const std::string& what) {
   return bad_input(what, "remove the file to go on from an older checkpoint");
@@ -108,8 +108,8 @@ class Writer {
   }
   void put(const void* bytes, std::size_t count) {
     hash_.add(bytes, count);
-    if (pending_.size() + count > most_pending) flush();
-    if (count > most_pending)
+    if (pending_.size() + count > max_pending) flush();
+    if (count > max_pending)
       file_.write(bytes, count);
     else
       pending_.append(static_cast<const char*>(bytes), count);
@@ -140,7 +140,7 @@ class Writer {
     put(first, count * sizeof(Element));
   }
 
-  static constexpr std::size_t most_pending = 1 << 16;
+  static constexpr std::size_t max_pending = 1 << 16;
 
   NewFile& file_;
   std::string pending_;
@@ -333,9 +333,8 @@ void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
 
 Checkpoint read_checkpoint(const fs::path& path, std::uint64_t particles) {
   try {
-    check_count_in(read_head(path, most_before_count), particles);
-    const std::string text =
-        read_file(path, particles * most_bytes_per_particle + most_bytes_beside);
+    check_count_in(read_head(path, max_before_count), particles);
+    const std::string text = read_file(path, particles * max_bytes_per_particle + max_bytes_beside);
     return parsed(text, particles);
   } catch (const Error& error) {
     throw std::string_view(error.what()).starts_with(path.string())

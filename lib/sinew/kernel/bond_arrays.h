@@ -31,7 +31,7 @@ struct Branch {
   Real flows;     ///< share of its spring's stretch that passes to the dashpot now; often 0
   Real weight;    ///< of its stretch in the length at which the bond pulls nothing
 };
-inline constexpr int most_branches = 4;
+inline constexpr int max_branches = 4;
 
 /// What was found of a piece's bonds when their flow was: how far its particles are from yielding,
 /// and what bounds how soon they may. Lengths in those of the kernel.
@@ -61,7 +61,7 @@ struct Bonds {
   const Real* breaking_of;
   Real crept;     ///< share that a step takes of it
   Real breaking;  ///< strain at which it breaks
-  Branch<Real> branch[most_branches];
+  Branch<Real> branch[max_branches];
   int branches;
   bool branches_flow;  ///< one of them does now
   Real slope;          ///< of a bond's force, over its stiffness, where there are branches

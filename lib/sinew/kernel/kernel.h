@@ -153,7 +153,7 @@ struct Totals {
   double pair_energy;   ///< only from probe
   double bone_energy;   ///< only from probe
   double speed2;        ///< the largest squared speed, of what steps store as fixed point
-  bool sound;           ///< none too fast (see most_radii_per_step), all values finite
+  bool sound;           ///< none too fast (see max_radii_per_step), all values finite
   bool broke;           ///< a bond
   Relaxing relaxing;    ///< only of steps that relax
 };

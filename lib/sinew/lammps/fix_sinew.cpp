@@ -97,7 +97,7 @@ bool FixSinew::is_sound(int i, const Vec3& kicked, const Pose& pose) const {
       row.bones() == 0 || (around_ && around_->held(id_of(atom->tag[i])))
           ? v
           : pose[static_cast<std::size_t>(row.influence(0).bone)].velocity_at(before);
-  const double most = most_radii_per_step * body_->setup.material.pair.r;
+  const double most = max_radii_per_step * body_->setup.material.pair.r;
   const bool drifts_first = body_->setup.stepping.integrator == Integrator::explicit_euler;
   return (step_ * (kicked - carried)).squaredNorm() <= most * most &&
          (before + step_ * (drifts_first ? v : kicked)).allFinite();

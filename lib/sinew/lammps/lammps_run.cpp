@@ -21,7 +21,7 @@ constexpr double skin = 0.6;       // of neighbor lists, in radii
 constexpr double bond_growth = 2;  // of the longest bond until it is measured
 // LAMMPS refuses boxes much thinner than the range of forces. That of a thin body never shrinks.
 constexpr double thin = 12;  // in radii
-constexpr std::size_t most_unread = 3;
+constexpr std::size_t max_unread = 3;
 
 LAMMPS_NS::Pair* make_pair(LAMMPS_NS::LAMMPS* lammps) { return new PairSinew(lammps); }
 LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lammps, int words, char** word) {
@@ -196,7 +196,7 @@ class LammpsRun {
     };
     while (true) {
       std::erase_if(unread_, is_read);
-      if (unread_.size() < most_unread || talk_.interruption() == Interruption::stop) return;
+      if (unread_.size() < max_unread || talk_.interruption() == Interruption::stop) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
   }

@@ -11,7 +11,7 @@ namespace sinew {
 namespace {
 
 // Nearer to the axis than this share of a radius, a particle has no direction across it.
-constexpr double least_distance = 1e-6;
+constexpr double min_distance = 1e-6;
 
 double place_along(const Bone& bone, const Vec3& point) {
   return (point - bone.head()).dot(bone.axis());
@@ -38,10 +38,10 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
   const Vec3 local = bone.rest.rotation.transpose() * (rest - bone.head());
   const double r = body.material.pair.r;
   const double across = local.y() * local.y() + local.z() * local.z();
-  const bool aside = across >= least_distance * least_distance * r * r ||
+  const bool aside = across >= min_distance * min_distance * r * r ||
                      body.springs[influence.bone].form == BoneForce::anchor;
   const double at_rest = influence.distance_to(bone, rest);
-  const double distance = at_rest < least_distance * r ? 0 : at_rest;
+  const double distance = at_rest < min_distance * r ? 0 : at_rest;
   const double fields[kernel::held_fields] = {influence.foot - center, local.x() - center,
                                               aside ? local.y() : 0, aside ? local.z() : 0,
                                               distance};

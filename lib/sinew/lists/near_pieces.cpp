@@ -13,10 +13,10 @@ namespace {
 constexpr std::size_t pieces_per_task = 16;
 // Until the next survey, velocity fields may carry particles so far: in outer ranges, and in steps
 // of the fastest one.
-constexpr double least_travel = 0.125, travel_in_steps = 16;
+constexpr double min_travel = 0.125, travel_in_steps = 16;
 // And particles of a piece may leave its field by so much: in outer ranges, and times what they did
 // in the last step.
-constexpr double least_drift = 0.06, drift_in_steps = 1.5;
+constexpr double min_drift = 0.06, drift_in_steps = 1.5;
 // What a step may take particles without warning, in outer ranges: bonds that snap.
 constexpr double jump = 0.06;
 // Surveys serve when particles have drifted by this share of the inner skin, but not every few
@@ -78,8 +78,8 @@ void NearPieces::find_limits(double time) {
   drift_.clear();
   for (const double gone : last_)
     drift_.push_back(jump * ranges_.outer +
-                     std::max(least_drift * ranges_.outer, drift_in_steps * ranges_.steps * gone));
-  travel_ = least_travel * ranges_.outer;
+                     std::max(min_drift * ranges_.outer, drift_in_steps * ranges_.steps * gone));
+  travel_ = min_travel * ranges_.outer;
   travel_ = std::max(travel_, travel_in_steps * find_fields() * time);
   fastest_point_ = find_fields();
   horizon_ = fastest_point_ > 0 ? travel_ / fastest_point_ : 0;

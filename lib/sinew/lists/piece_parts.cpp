@@ -10,7 +10,7 @@ namespace sinew {
 namespace {
 
 // Fewer move with the part before them.
-constexpr std::size_t least_size = 4;
+constexpr std::size_t min_size = 4;
 
 /// What a particle moves with: its group, or else its bone.
 std::int32_t leader_of(const Body& body, std::size_t i) {
@@ -41,7 +41,7 @@ PieceParts divided(std::size_t count, std::size_t size, std::vector<std::size_t>
     parts.of_piece.push_back(static_cast<std::uint32_t>(parts.first.size()));
     parts.first.push_back(static_cast<std::uint32_t>(first));
     for (; begins[next] < end; ++next)
-      if (begins[next] >= parts.first.back() + least_size && begins[next] + least_size <= end)
+      if (begins[next] >= parts.first.back() + min_size && begins[next] + min_size <= end)
         parts.first.push_back(static_cast<std::uint32_t>(begins[next]));
     parts.piece.resize(parts.first.size(), static_cast<std::uint32_t>(first / size));
   }

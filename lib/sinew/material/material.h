@@ -26,9 +26,8 @@ struct BondStrength {
   double breaking_strain = 0;  ///< in tension; 0: never breaks
   /// Shear sqrt(D : D) around a particle beyond which its bonds creep (see solid.h); 0: never.
   double yield_shear = 0;
-  double creep_rate = 0;  ///< of what exceeds it, 1/s
-  std::array<MaxwellBranch, most_relaxation_branches> branches =
-      {};  ///< those there are come first
+  double creep_rate = 0;                                             ///< of what exceeds it, 1/s
+  std::array<MaxwellBranch, max_relaxation_branches> branches = {};  ///< those there are come first
 
   std::size_t branch_count() const;
   double long_term() const;  ///< stiffness that does not relax, over all of it

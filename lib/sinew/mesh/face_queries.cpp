@@ -69,7 +69,7 @@ using Node = CGAL::AABB_node<Traits>;
 constexpr int places = 2000, stride = 617;  // coprime: any first part of them is spread as well
 constexpr double thin_share = 0.01;
 // Boxes visited by all lines, some seconds: hundreds per line are usual, in fans of needles all.
-constexpr std::size_t most_boxes = 20'000'000;
+constexpr std::size_t max_boxes = 20'000'000;
 
 Kernel::Point_3 point_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -184,7 +184,7 @@ std::optional<double> thinnest_part(const Triangles& surface) {
   std::vector<double> found;
   std::size_t tried = 0;
   for (const Probing& place : spread(surface)) {
-    if (rays.boxes() > most_boxes) break;
+    if (rays.boxes() > max_boxes) break;
     ++tried;
     if (const auto thickness = rays.thickness(place)) found.push_back(*thickness);
   }

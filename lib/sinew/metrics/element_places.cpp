@@ -11,14 +11,14 @@ namespace sinew {
 namespace {
 
 constexpr double within = 1e-6;  // of an element: nothing is nearer
-constexpr int most_iterations = 30;
+constexpr int max_iterations = 30;
 constexpr double farthest = 4;  // local coordinates: beyond, Newton's method is lost
 
 /// Local coordinates of a point, by Newton's method from the middle.
 Vec3 local_coordinates(const VolumeMesh& mesh, const VolumeElement& element, const Vec3& point) {
   constexpr double small = 1e-12;
   Vec3 local = is_hexahedron(element.kind) ? Vec3(Vec3::Zero()) : Vec3::Constant(0.25);
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const ShapeFunctions at = shape_functions(element.kind, local);
     Vec3 place = Vec3::Zero();
     Mat3 slope = Mat3::Zero();

@@ -208,7 +208,7 @@ std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const S
 
 std::string reasons_for_distrust(std::span<const FrameMetrics> frames, const Summary& summary,
                                  double radius, std::size_t particles) {
-  constexpr double most_inverted = 0.01;  // of the particles
+  constexpr double max_inverted = 0.01;  // of the particles
   const auto items = verdict(frames, summary, radius);
   const auto &volume = items[0], &pose = items[1], &inverted = items[3];
   const double share =
@@ -217,7 +217,7 @@ std::string reasons_for_distrust(std::span<const FrameMetrics> frames, const Sum
   const auto add = [&](bool holds, const std::string& reason) {
     if (holds) reasons += (reasons.empty() ? "" : ", ") + reason;
   };
-  add(share > most_inverted, inverted.value + " particles are inverted");
+  add(share > max_inverted, inverted.value + " particles are inverted");
   add(volume.level == Level::poor, "the volume is off by " + volume.value);
   add(pose.level == Level::poor, "the body is " + pose.value + " from the pose of its bones");
   return reasons;

@@ -72,7 +72,7 @@ void smooth_pixel(const Image& image, int x, int y, const std::array<int, 4>& ar
 }  // namespace
 
 Image with_smooth_edges(const Image& image) {
-  constexpr int least_contrast = 16;
+  constexpr int min_contrast = 16;
   Image smooth = image;
   parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t begin, std::size_t end) {
     const auto padded = static_cast<std::size_t>(image.width) + 2;
@@ -85,7 +85,7 @@ Image with_smooth_edges(const Image& image) {
         const std::array<int, 4> around = {above[x + 1], below[x + 1], here[x], here[x + 2]};
         const auto [low, high] =
             std::minmax({around[0], around[1], around[2], around[3], here[x + 1]});
-        if (high - low >= least_contrast)
+        if (high - low >= min_contrast)
           smooth_pixel(image, x, y, around, here[x + 1], smooth.at(x, y));
       }
     }

@@ -240,11 +240,11 @@ Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
                        std::max(1, options.height - 2 * options.margin));
   stage_.aim({options.camera, options.width, options.height, pixel, options.finish,
               options.paper.background, options.tile});
-  constexpr double least_grain = 4;  // pixels: thinner bones would not be seen in a plan
+  constexpr double min_grain = 4;  // pixels: thinner bones would not be seen in a plan
   const bool fine = options.finish == Finish::fine;
   Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel, fine ? 2.4 : 1.4,
               fine ? Sampled::every_pixel : Sampled::every_second};
-  if (options.view == View::plan) sizes.grain = std::max(sizes.grain, least_grain * pixel);
+  if (options.view == View::plan) sizes.grain = std::max(sizes.grain, min_grain * pixel);
   Exposure picture = body(snapshot, sizes, options.view);
   put_obstacles(picture, snapshot, sizes);
   put_traces(picture, snapshot, sizes);

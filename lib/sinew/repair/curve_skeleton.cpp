@@ -89,13 +89,13 @@ using Mesh = CGAL::Surface_mesh<Point>;
 using Flow = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 
 constexpr double wanted_faces = 6000;   // half a second of contraction
-constexpr double least_faces = 800;     // of each part
+constexpr double min_faces = 800;       // of each part
 constexpr double small_part = 0.01;     // of the largest part's volume
 constexpr double wrapped_faces = 6000;  // of CGAL's wrap, 2.5 to a square of its length
 constexpr int rounds = 3;               // of remeshing: more change little
-constexpr std::size_t most_contractions = 500;
-constexpr std::ptrdiff_t most_handles = 40;
-constexpr std::size_t most_parts = 40;  // each takes a tenth of a second
+constexpr std::size_t max_contractions = 500;
+constexpr std::ptrdiff_t max_handles = 40;
+constexpr std::size_t max_parts = 40;  // each takes a tenth of a second
 
 Vec3 vector_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -129,7 +129,7 @@ Mesh closed_mesh(const Triangles& surface, const Frame& frame) {
 /// In some thousand faces for all parts together, and some hundred for each.
 void make_even(Mesh& mesh, double area_of_all) {
   const double own = pmp::area(mesh);
-  const double faces = std::max(wanted_faces * own / area_of_all, least_faces);
+  const double faces = std::max(wanted_faces * own / area_of_all, min_faces);
   const double edge = std::sqrt(own / faces / 0.433);
   pmp::isotropic_remeshing(mesh.faces(), edge, mesh, pmp::parameters::number_of_iterations(rounds));
   mesh.collect_garbage();
@@ -140,7 +140,7 @@ void refuse_sponge(const Mesh& part) {
   const auto count = [](std::size_t n) { return static_cast<std::ptrdiff_t>(n); };
   const std::ptrdiff_t euler = count(part.number_of_vertices()) - count(part.number_of_edges()) +
                                count(part.number_of_faces());
-  if (1 - euler / 2 > most_handles)
+  if (1 - euler / 2 > max_handles)
     throw bad_input("the surface has " + std::to_string(1 - euler / 2) + " handles",
                     "give the bones of a rig");
 }
@@ -149,7 +149,7 @@ void refuse_sponge(const Mesh& part) {
 void contract(const Mesh& part, const Frame& frame, CurveGraph& graph) {
   const Addresses ascending;
   Flow flow(part);
-  flow.set_max_iterations(most_contractions);
+  flow.set_max_iterations(max_contractions);
   Flow::Skeleton curves;
   flow(curves);
   const int first = static_cast<int>(graph.points.size());
@@ -176,7 +176,7 @@ std::vector<Mesh> parts_of(const Mesh& mesh) {
   std::sort(order.begin(), order.end());
   std::vector<Mesh> large;
   for (const auto& [volume, i] : order)
-    if (volume <= small_part * order.front().first && large.size() < most_parts)
+    if (volume <= small_part * order.front().first && large.size() < max_parts)
       large.push_back(parts[i]);
   return large;
 }

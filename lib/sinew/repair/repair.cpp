@@ -22,8 +22,8 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Face = std::array<int, 3>;
 
-constexpr std::size_t most_edges = 1000;       // CGAL's tables grow with the square
-constexpr std::size_t most_edges_cubic = 100;  // all triangles instead of Delaunay's: cubic time
+constexpr std::size_t max_edges = 1000;       // CGAL's tables grow with the square
+constexpr std::size_t max_edges_cubic = 100;  // all triangles instead of Delaunay's: cubic time
 
 struct Corners {
   int a, b, c;  ///< indices into a hole
@@ -58,7 +58,7 @@ class Closer {
   /// Nothing where CGAL finds no triangulation.
   std::vector<Corners> triangulated(const Hole& hole) const {
     std::vector<Corners> faces;
-    if (hole.size() > most_edges) return faces;
+    if (hole.size() > max_edges) return faces;
     std::vector<Point> points, opposite;
     for (const HoleEdge& edge : hole) {
       points.push_back(point(edge.from));
@@ -72,7 +72,7 @@ class Closer {
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
         points, opposite, std::back_inserter(faces),
         CGAL::parameters::use_delaunay_triangulation(true).do_not_use_cubic_algorithm(
-            hole.size() > most_edges_cubic));
+            hole.size() > max_edges_cubic));
     return faces;
   }
 
@@ -116,10 +116,10 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-constexpr double offset_share = 1.0 / 30;       // of alpha: CGAL's default
-constexpr double faces_per_square = 2.5;        // of edge alpha: measured, without leaks
-constexpr double most_faces = 1e6;              // minutes
-constexpr std::size_t most_points = 2'000'000;  // some GB, where it leaks into every corner
+constexpr double offset_share = 1.0 / 30;      // of alpha: CGAL's default
+constexpr double faces_per_square = 2.5;       // of edge alpha: measured, without leaks
+constexpr double max_faces = 1e6;              // minutes
+constexpr std::size_t max_points = 2'000'000;  // some GB, where it leaks into every corner
 
 const char* const larger = "give a larger length or close the holes";
 
@@ -141,10 +141,10 @@ void refuse_alpha(const Triangles& surface, double alpha) {
   }
   const double most = faces_per_square * std::min(squares, diagonal * diagonal);
   const double faces = most / (alpha * alpha);
-  if (faces <= most_faces) return;
+  if (faces <= max_faces) return;
   std::string what = "takes about ", cure = "give ";
-  what.append(millions(faces)).append(" faces, more than ").append(millions(most_faces));
-  cure.append(three_digits(1.01 * std::sqrt(most / most_faces))).append(" m or more");
+  what.append(millions(faces)).append(" faces, more than ").append(millions(max_faces));
+  cure.append(three_digits(1.01 * std::sqrt(most / max_faces))).append(" m or more");
   throw refusal(alpha, what, cure);
 }
 
@@ -155,7 +155,7 @@ struct PointLimit : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
 
   template <class Wrapper, class Place>
   void before_Steiner_point_insertion(const Wrapper&, const Place&) {
-    if (++points > most_points) throw TooManyPoints{};
+    if (++points > max_points) throw TooManyPoints{};
   }
 };
 
@@ -230,7 +230,7 @@ Triangles wrap(const Triangles& surface, double alpha) {
     return skin;
   } catch (const TooManyPoints&) {
     std::string what = "takes more than ";
-    what.append(millions(most_points)).append(" points, as one that leaks into a body does");
+    what.append(millions(max_points)).append(" points, as one that leaks into a body does");
     throw refusal(alpha, what, larger);
   }
 }

@@ -20,7 +20,7 @@ using Point = Kernel::Point_3;
 using FaceBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 using Face = std::array<int, 3>;
 
-constexpr std::size_t least_tests = 2'000'000, tests_per_face = 20;  // 5 to 12 are usual
+constexpr std::size_t min_tests = 2'000'000, tests_per_face = 20;  // 5 to 12 are usual
 
 /// Moves the corners that both faces share to the front, in the same order; returns their number.
 int align(Face& a, Face& b) {
@@ -134,8 +134,8 @@ class Search {
   Search(const Triangles& surface, const PairTest& test, std::size_t most)
       : test_(test),
         parts_(parts_of(surface, test)),
-        most_pairs_(most),
-        most_tests_(std::max(least_tests, tests_per_face * surface.faces.size())) {
+        max_pairs_(most),
+        max_tests_(std::max(min_tests, tests_per_face * surface.faces.size())) {
     found_.faces.resize(surface.faces.size());
   }
 
@@ -155,18 +155,18 @@ class Search {
 
  private:
   void take(int a, int b) {
-    if (++tests_ > most_tests_) throw Enough{};
+    if (++tests_ > max_tests_) throw Enough{};
     const auto [p, q] = std::minmax(a, b);
     const std::array<int, 2> pair = {parts_[p].face, parts_[q].face};
     if (pair[0] == pair[1] || !test_.meet(parts_[p].corners, parts_[q].corners)) return;
     found_.first = found_.pairs == 0 ? pair : std::min(found_.first, pair);
     for (const int face : pair) found_.faces[face] = true;
-    if (++found_.pairs == most_pairs_) throw Enough{};
+    if (++found_.pairs == max_pairs_) throw Enough{};
   }
 
   const PairTest& test_;
   std::vector<Part> parts_;
-  std::size_t most_pairs_, most_tests_, tests_ = 0;
+  std::size_t max_pairs_, max_tests_, tests_ = 0;
   SelfIntersections found_;
 };
 

@@ -11,10 +11,10 @@ namespace sinew {
 namespace {
 
 constexpr double straight = 0.35;     // of the distance from the surface: curves within are lines
-constexpr double most_of_stem = 0.4;  // of a limb lies in the ball where it begins
+constexpr double max_of_stem = 0.4;   // of a limb lies in the ball where it begins
 constexpr double root_share = 0.15;   // of two limbs, on either side of where they begin
-constexpr double least_bone = 3;      // length of bones in distances from the surface
-constexpr int most_alike = 5;         // bones of a straight limb
+constexpr double min_bone = 3;        // length of bones in distances from the surface
+constexpr int max_alike = 5;          // bones of a straight limb
 constexpr double trunk_share = 0.4;   // of the angle, where a limb holds others
 constexpr double stout_share = 0.67;  // of the angle, where a limb is about as thick as long
 constexpr double long_trunk = 3;      // in distances from the surface: such limbs bend
@@ -160,7 +160,7 @@ class Maker {
   }
 
   static double stem_of(const Course& course) {
-    return std::min(course.inner(0), most_of_stem * course.length());
+    return std::min(course.inner(0), max_of_stem * course.length());
   }
 
   void add_bone(const std::string& name, const std::string& parent, const Vec3& head,
@@ -203,7 +203,7 @@ class Maker {
     const double inner = mean_inner(course, place, end), from = place;
     std::vector<double> knots;
     course.add_knots(place, end, options_.radius / 2, knots);
-    const double longest = std::max((end - place) / most_alike, least_bone * inner);
+    const double longest = std::max((end - place) / max_alike, min_bone * inner);
     knots = divided(place, knots, std::min(longest, std::max((end - place) / 2, 2 * inner)));
     join_short(place, std::max(2 * options_.radius, inner / 2), knots);
     std::vector<std::string> names;

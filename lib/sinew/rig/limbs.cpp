@@ -15,10 +15,10 @@
 namespace sinew {
 namespace {
 
-constexpr double least_reach = 1.7;   // of a limb, in widths of the place where it begins
-constexpr double flat_end = 0.15;     // of the width: points so near the farthest are the tip
-constexpr double least_trunk = 0.75;  // length of a limb between two forks, in their widths
-constexpr double least_both = 2.5;    // of a body with limbs, in its widths
+constexpr double min_reach = 1.7;   // of a limb, in widths of the place where it begins
+constexpr double flat_end = 0.15;   // of the width: points so near the farthest are the tip
+constexpr double min_trunk = 0.75;  // length of a limb between two forks, in their widths
+constexpr double min_both = 2.5;    // of a body with limbs, in its widths
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// The graph while it becomes a tree.
@@ -175,7 +175,7 @@ void cut_off(CurveTree& tree, const std::vector<int>& branch) {
 void prune(CurveTree& tree, const std::vector<int>& points) {
   while (true) {
     std::vector<int> shortest;
-    double least = least_reach;
+    double least = min_reach;
     for (const int leaf : points) {
       if (!is_leaf(tree, leaf) || tree.on_ring[leaf]) continue;
       std::vector<int> branch = branch_of(tree, leaf);
@@ -257,7 +257,7 @@ void merge_forks(std::vector<Limb>& limbs) {
     }
     const bool short_fork =
         limb.end == Limb::End::fork &&
-        length(limb) < least_trunk * std::max(limb.inner.front(), limb.inner.back());
+        length(limb) < min_trunk * std::max(limb.inner.front(), limb.inner.back());
     number[i] = short_fork ? -1 : static_cast<int>(kept.size());
     if (short_fork) {
       limbs[i] = std::move(limb);
@@ -291,7 +291,7 @@ bool is_compact(const CurveTree& tree, int root, const std::vector<Limb>& limbs)
     else
       second = std::max(second, now);
   }
-  return longest + second < least_both * 2 * tree.width[root];
+  return longest + second < min_both * 2 * tree.width[root];
 }
 
 std::vector<Limb> limbs_in(CurveTree& tree, const std::vector<int>& points, int body) {

@@ -13,7 +13,7 @@ namespace sinew {
 
 namespace {
 
-constexpr double least_stretch = 0.01;  // a cubic between positive keys may be below
+constexpr double min_stretch = 0.01;  // a cubic between positive keys may be below
 
 /// A moment of the clip, s, and its rate in the scene: 0 where it holds, below 0 where it plays
 /// backwards.
@@ -118,8 +118,8 @@ LocalMotion Track::at(double time, TrackCursor& cursor) const {
   }
   if (cursor.stretches) {
     const auto sample = sample_of(stretch, time, cursor.stretch);
-    const bool held = sample.value < least_stretch;
-    motion.stretch = held ? least_stretch : sample.value;
+    const bool held = sample.value < min_stretch;
+    motion.stretch = held ? min_stretch : sample.value;
     motion.stretch_rate = held ? 0 : sample.rate;
   }
   return motion;

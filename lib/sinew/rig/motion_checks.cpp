@@ -63,7 +63,7 @@ Excess limit(const Bone& bone, LocalMotion& motion) {
   const Parts parts = parts_of(motion.rotation, bone.axis());
   const Rates rates = rates_of(parts, motion.angular_velocity);
   const double twist = parts.twist + motion.twist;
-  const double allowed = std::clamp(twist, limits.least_twist, limits.most_twist);
+  const double allowed = std::clamp(twist, limits.min_twist, limits.max_twist);
   const Excess excess = {std::max(0.0, parts.lean - limits.swing), std::abs(twist - allowed)};
   if (excess.swing > 0) limit_swing(bone, parts, rates, motion);
   if (excess.twist > 0) {
@@ -117,7 +117,7 @@ std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& m
 
 namespace {
 
-constexpr double least_turn = pi / 180, least_shift_of_size = 1e-3;
+constexpr double min_turn = pi / 180, min_shift_of_size = 1e-3;
 
 /// The difference between two motions of a bone.
 struct Gap {
@@ -150,13 +150,13 @@ struct Worst {
   }
 };
 
-Worst worst_of(const Skeleton& skeleton, const Motion& motion, double least_shift,
+Worst worst_of(const Skeleton& skeleton, const Motion& motion, double min_shift,
                const std::function<Gap(const Bone&, const Track&)>& gap_of) {
   Worst worst;
   for (const Track& track : motion.tracks) {
     const Bone& bone = skeleton.bones[static_cast<std::size_t>(track.bone)];
     const Gap gap = gap_of(bone, track);
-    if (gap.turn <= least_turn && gap.shift <= least_shift) continue;
+    if (gap.turn <= min_turn && gap.shift <= min_shift) continue;
     const bool first = worst.count++ == 0;
     if (first || gap.turn > worst.gap.turn) worst.name = bone.name, worst.gap = gap;
   }
@@ -178,7 +178,7 @@ double preroll_for(const Skeleton& skeleton, const Motion& motion) {
   const Pose first = pose_at(skeleton, clip, 0), rest = rest_pose(skeleton);
   for (std::size_t b = 0; b < first.size(); ++b)
     shift = std::max(shift, (first[b].frame.origin - rest[b].frame.origin).norm());
-  if (most <= least_turn && shift <= least_shift_of_size * size) return 0;
+  if (most <= min_turn && shift <= min_shift_of_size * size) return 0;
   const double time = std::max(most / turn_per_second, shift / (sizes_per_second * size));
   return std::ceil(10 * time - 1e-9) / 10;
 }
@@ -187,11 +187,11 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-void warn_of_start(const Skeleton& skeleton, const Motion& motion, double least_shift,
+void warn_of_start(const Skeleton& skeleton, const Motion& motion, double min_shift,
                    Warnings& warnings) {
   if (motion.preroll > 0) return;
   const Worst worst =
-      worst_of(skeleton, motion, least_shift, [&](const Bone& bone, const Track& track) {
+      worst_of(skeleton, motion, min_shift, [&](const Bone& bone, const Track& track) {
         return gap_between(bone, track.at(motion.start), {});
       });
   if (worst.count > 0)
@@ -200,12 +200,12 @@ void warn_of_start(const Skeleton& skeleton, const Motion& motion, double least_
                        "begin its keys with one that has no rotation and no translation");
 }
 
-void warn_of_loop(const Skeleton& skeleton, const Motion& motion, double least_shift,
+void warn_of_loop(const Skeleton& skeleton, const Motion& motion, double min_shift,
                   Warnings& warnings) {
   if (motion.extrapolation != Extrapolation::loop) return;
   const double end = motion.start + clip_length(motion);
   const Worst worst =
-      worst_of(skeleton, motion, least_shift, [&](const Bone& bone, const Track& track) {
+      worst_of(skeleton, motion, min_shift, [&](const Bone& bone, const Track& track) {
         return gap_between(bone, track.at(motion.start), track.at(end));
       });
   if (worst.count > 0)
@@ -244,10 +244,10 @@ void warn_of_limits(const Skeleton& skeleton, const Motion& motion, Warnings& wa
 }  // namespace
 
 std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion& motion,
-                                         double least_shift) {
+                                         double min_shift) {
   Warnings warnings;
-  warn_of_start(skeleton, motion, least_shift, warnings);
-  warn_of_loop(skeleton, motion, least_shift, warnings);
+  warn_of_start(skeleton, motion, min_shift, warnings);
+  warn_of_loop(skeleton, motion, min_shift, warnings);
   warn_of_steps(skeleton, motion, warnings);
   warn_of_limits(skeleton, motion, warnings);
   return warnings;

@@ -5,7 +5,7 @@
 // limit.
 //
 //     const Excess excess = limit(bone, motion);
-//     for (const std::string& line : motion_warnings(skeleton, motion, least_shift)) print(line);
+//     for (const std::string& line : motion_warnings(skeleton, motion, min_shift)) print(line);
 #pragma once
 
 #include <string>
@@ -43,8 +43,8 @@ double preroll_for(const Skeleton& skeleton, const Motion& motion);
 
 /// One line each, with numbers and a cure: bones that do not begin at rest without a preroll, that
 /// jump from key to key or where a loop closes, and that are held at their limits. Shifts below
-/// `least_shift` (m) and rotations below a degree are not reported.
+/// `min_shift` (m) and rotations below a degree are not reported.
 std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion& motion,
-                                         double least_shift);
+                                         double min_shift);
 
 }  // namespace sinew

@@ -103,8 +103,8 @@ JointLimits limits_of(Bones bones, std::size_t bone) {
                     "the twist of bone '" + bones[bone].name + "' could be no number from " +
                         number_text(least) + " to " + number_text(most),
                     "give the smaller limit first");
-  limits.least_twist = radians(least);
-  limits.most_twist = radians(most);
+  limits.min_twist = radians(least);
+  limits.max_twist = radians(most);
   return limits;
 }
 
@@ -137,7 +137,7 @@ Bone make_bone(Bones bones, std::size_t index, const Skeleton& earlier) {
 
 /// The one of x, y, z along which a unit vector is least. Rounding must not choose between equals:
 /// their cross products with it are far apart.
-int least_along(const Vec3& unit) {
+int min_along(const Vec3& unit) {
   constexpr double equal = 1e-6;
   const Vec3 sizes = unit.cwiseAbs();
   int first = 0;
@@ -189,14 +189,14 @@ Skeleton placed(Skeleton skeleton, const Placement& placement) {
 Mat3 frame_along(const Vec3& axis) {
   Mat3 frame;
   frame.col(0) = axis.normalized();
-  frame.col(1) = frame.col(0).cross(Vec3::Unit(least_along(frame.col(0)))).normalized();
+  frame.col(1) = frame.col(0).cross(Vec3::Unit(min_along(frame.col(0)))).normalized();
   frame.col(2) = frame.col(0).cross(frame.col(1));
   return frame;
 }
 
 namespace {
 
-constexpr double least_length = 1e-6;  // of the skeleton's size; shorter directions are rounding
+constexpr double min_length = 1e-6;  // of the skeleton's size; shorter directions are rounding
 
 struct Children {
   Vec3 sum = Vec3::Zero(), farthest = Vec3::Zero();  // of their offsets from the joint
@@ -238,7 +238,7 @@ Vec3 along(const Joint& joint, const Children& children, double least, const Vec
 Vec3 unknown_along(const Joint& joint, const Skeleton& earlier, double size) {
   if (joint.parent == no_bone) return Vec3(0, 0, size / 10);
   const Bone& parent = earlier.bones[joint.parent];
-  return std::max(parent.length / 10, least_length * size) * parent.axis();
+  return std::max(parent.length / 10, min_length * size) * parent.axis();
 }
 
 /// Gives every joint a unique name.
@@ -292,8 +292,8 @@ Skeleton skeleton_of(const std::vector<Joint>& joints, const char* cure) {
   Names names(joints);
   Skeleton skeleton;
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const Vec3 axis = along(joints[i], children[i], least_length * size,
-                            unknown_along(joints[i], skeleton, size));
+    const Vec3 axis =
+        along(joints[i], children[i], min_length * size, unknown_along(joints[i], skeleton, size));
     Bone bone{names.of(joints[i], i), joints[i].parent, axis.norm(), {}};
     bone.rest.origin = joints[i].place;
     bone.rest.rotation = frame_along(axis);

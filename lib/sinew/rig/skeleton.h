@@ -23,10 +23,10 @@ inline constexpr int no_bone = -1;
 /// How far a bone may rotate on its parent, rad; see motion_checks.h.
 struct JointLimits {
   double swing = pi;
-  double least_twist = -std::numeric_limits<double>::infinity();
-  double most_twist = std::numeric_limits<double>::infinity();
+  double min_twist = -std::numeric_limits<double>::infinity();
+  double max_twist = std::numeric_limits<double>::infinity();
 
-  bool any() const { return swing < pi || std::isfinite(least_twist) || std::isfinite(most_twist); }
+  bool any() const { return swing < pi || std::isfinite(min_twist) || std::isfinite(max_twist); }
 };
 
 /// Spring constants of one bone, as factors of the binding's.

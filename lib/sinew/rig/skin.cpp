@@ -14,7 +14,7 @@ namespace sinew {
 namespace {
 
 constexpr double reach_in_radii = 6;
-constexpr std::size_t least_particles = 20;  // fewer would make single particles visible
+constexpr std::size_t min_particles = 20;  // fewer would make single particles visible
 constexpr double margin = 1.05;  // h relative to the last of them, so that it has some weight
 constexpr std::size_t vertices_per_piece = 512;  // and particles
 
@@ -58,7 +58,7 @@ std::optional<Support> support_within(const CellGrid& grid, const Points& points
 std::vector<Support> supports_of(const Points& vertices, const Points& points, double range) {
   std::vector<Support> supports(vertices.size());
   if (points.empty()) return supports;
-  const std::size_t wanted = std::min(least_particles, points.size());
+  const std::size_t wanted = std::min(min_particles, points.size());
   std::vector<std::uint32_t> left(vertices.size());
   std::iota(left.begin(), left.end(), 0);
   for (double limit = range; !left.empty(); limit *= 2) {
@@ -149,8 +149,8 @@ Mat3 rotation_around(const RestShape& body, const Points& now, std::size_t j) {
 }
 
 Mat3 motion_at(const RestShape& body, const Points& now, std::size_t j) {
-  constexpr std::size_t least_neighbors = 4;
-  if (!body.defined(j) || body.neighbors.of(j).size() < least_neighbors)
+  constexpr std::size_t min_neighbors = 4;
+  if (!body.defined(j) || body.neighbors.of(j).size() < min_neighbors)
     return rotation_around(body, now, j);
   const Mat3 F = deformation_gradient(body, now, j);
   const double J = F.determinant();

@@ -11,7 +11,7 @@ namespace sinew {
 
 namespace {
 
-constexpr std::size_t nearest_vertices = 8, most_bones = 4;
+constexpr std::size_t nearest_vertices = 8, max_bones = 4;
 constexpr std::size_t points_per_piece = 512;
 
 struct NearVertex {
@@ -76,7 +76,7 @@ std::vector<BoneWeight> mean_of(const std::vector<NearVertex>& near, const BoneW
     for (const BoneWeight& part : weights.of(vertex[one.vertex]))
       add(part.weight / std::max(one.distance, least), part.bone, mean);
   std::sort(mean.begin(), mean.end(), heavier);
-  if (mean.size() > most_bones) mean.resize(most_bones);
+  if (mean.size() > max_bones) mean.resize(max_bones);
   double sum = 0;
   for (const BoneWeight& one : mean) sum += one.weight;
   for (BoneWeight& one : mean) one.weight /= sum;

@@ -129,7 +129,7 @@ std::vector<MachineColumn> machine_columns(const std::filesystem::path& folder) 
   const std::size_t frames = columns.front().values.size();
   leave_out_rounding(columns);
   if (columns.size() == 1) return {};
-  const std::size_t nth = frames / most_drawn + 1;
+  const std::size_t nth = frames / max_drawn + 1;
   for (MachineColumn& column : columns) {
     column.values.resize(frames, std::nan(""));
     for (std::size_t i = 0; i * nth < frames; ++i) column.values[i] = column.values[i * nth];

@@ -73,8 +73,8 @@ LawCurve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& ske
   const bool anchored = springs.front().form == BoneForce::anchor;
   curve.note = anchored ? "f = −k_b (x − q), q its position in the rigid pose of the bone."
                         : "Radial: f = −k_b (|x − p| − l0), p the nearest point of the bone.";
-  constexpr std::size_t most_bones = 6;  // as many lines as can be distinguished
-  for (std::size_t b = 0; b < std::min(springs.size(), most_bones); ++b)
+  constexpr std::size_t max_bones = 6;  // as many lines as can be distinguished
+  for (std::size_t b = 0; b < std::min(springs.size(), max_bones); ++b)
     curve.lines.push_back(sampled(skeleton.bones[b].name.c_str(), -2, 2,
                                   [&](double x) { return -springs[b].radial * x * r; }));
   return curve;
@@ -83,8 +83,8 @@ LawCurve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& ske
 LawCurve twist_curve(const std::vector<BoneSprings>& springs, const Skeleton& skeleton, double r) {
   LawCurve curve{"Turning pull of a bone", "", "turned away by, degrees", "force in N", {}};
   curve.note = "f = −k_tau rho alpha for a particle at a distance rho = 5 r from the bone.";
-  constexpr std::size_t most_bones = 6;
-  for (std::size_t b = 0; b < std::min(springs.size(), most_bones); ++b)
+  constexpr std::size_t max_bones = 6;
+  for (std::size_t b = 0; b < std::min(springs.size(), max_bones); ++b)
     curve.lines.push_back(sampled(skeleton.bones[b].name.c_str(), -90, 90, [&](double angle) {
       return -springs[b].twist * 5 * r * radians(angle);
     }));

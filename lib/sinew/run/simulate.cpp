@@ -352,7 +352,7 @@ void say_what_is_doubtful(const ReadyScene& ready, const SimulateOptions& option
   if (const auto& relaxed = setup.load_steps)
     say(options, "equilibria at " + std::to_string(relaxed->count) +
                      " moments, each to a residual of " + three_digits(relaxed->residual) +
-                     " within " + std::to_string(relaxed->most_iterations) + " iterations");
+                     " within " + std::to_string(relaxed->max_iterations) + " iterations");
   else
     say(options, "step " + three_digits(setup.steps.step) + " s, " +
                      three_digits(setup.steps.factor()) + " of the stability limit " +

@@ -8,14 +8,14 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t most_bytes = 800'000;  // of a page of 10 MB
+constexpr std::size_t max_bytes = 800'000;  // of a page of 10 MB
 
 /// A coarser form of the obstacles where all frames of it would not fit; the same in all frames.
 ThinSurface thinned(const RunFiles& run, std::size_t frames) {
   constexpr std::size_t bytes = 36;  // a point has about two triangles, of three corners each
   const Triangles first = read_obstacles(run, 0);
   const bool moves = first.points != read_obstacles(run, run.frames() - 1).points;
-  return thin_surface(first, most_bytes / (bytes * (moves ? frames : 1)));
+  return thin_surface(first, max_bytes / (bytes * (moves ? frames : 1)));
 }
 
 Triangles picked(const Triangles& obstacles, const ThinSurface& thin) {

@@ -23,7 +23,7 @@ using Warnings = std::vector<std::string>;
 using Particle = std::uint32_t;
 
 // A few may touch where two limbs part: what a person sees is more.
-constexpr std::size_t most_that_touch = 12;
+constexpr std::size_t max_that_touch = 12;
 
 /// Pairs of bones, and the particles of theirs that touch.
 class Touching {
@@ -38,13 +38,13 @@ class Touching {
 
   /// Adds a warning about the pair of bones with most; nothing where those are few.
   void warn(const Skeleton& skeleton, const std::string& what, Warnings& warnings) {
-    std::size_t largest = most_that_touch, count = 0;
+    std::size_t largest = max_that_touch, count = 0;
     std::pair<int, int> worst;
     for (auto& [bones, particles] : pairs_) {
       std::sort(particles.begin(), particles.end());
       particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
       const std::size_t size = each_ * particles.size();
-      count += size > most_that_touch ? 1 : 0;
+      count += size > max_that_touch ? 1 : 0;
       if (size > largest) largest = size, worst = bones;
     }
     if (count == 0) return;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double bonded_ratio = 0.25;  // Poisson's, of central forces
 constexpr double default_size = 4;     // radii: as many nodes as particles, or fewer
-constexpr double most_elements = 500'000;
+constexpr double max_elements = 500'000;
 
 // What elements cannot hold.
 
@@ -91,8 +91,8 @@ double size_of(const Settings& settings, const Triangles& surface, const Element
 
 VolumeMesh mesh_of(const Settings& settings, const Triangles& surface, double size) {
   const double expected = volume(surface) / (size * size * size);
-  if (!(expected < most_elements))
-    throw bad_input("the body would have over " + number_text(most_elements) + " elements",
+  if (!(expected < max_elements))
+    throw bad_input("the body would have over " + number_text(max_elements) + " elements",
                     "give a larger --size than " + three_digits(size) + " m");
   if (const auto box = axis_box(surface)) return hexahedra(*box, size, cuts_of(settings));
   return with_context(settings, "body.mesh", [&] { return tetrahedra(surface, size); });
@@ -356,12 +356,12 @@ double turn_of(const std::vector<NodeSupport>& supports, double from, double to)
 /// Of each frame, as the static method has them; and of moments between, where supports turn: what
 /// goes straight from one place to another does not turn.
 std::vector<double> step_times(const FrameTimes& frames, const std::vector<NodeSupport>& supports) {
-  const double most_turn = radians(15);
+  const double max_turn = radians(15);
   std::vector<double> times = {0};
   for (int frame = 1; frame <= frames.count; ++frame) {
     const double from = frames.at(frame - 1), to = frames.at(frame);
     const int parts =
-        std::max(1, static_cast<int>(std::ceil(turn_of(supports, from, to) / most_turn - 1e-6)));
+        std::max(1, static_cast<int>(std::ceil(turn_of(supports, from, to) / max_turn - 1e-6)));
     for (int part = 1; part < parts; ++part) times.push_back(from + (to - from) * part / parts);
     times.push_back(to);
   }

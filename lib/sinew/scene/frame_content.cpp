@@ -21,7 +21,7 @@ constexpr std::size_t max_particles_with_strain = 200'000;
 /// 1 for particles whose neighbors all have all of theirs.
 std::vector<std::uint8_t> deep_inside(const Points& rest, double radius) {
   const NeighborLists near = neighbors_within(rest, rest_neighbor_range(radius));
-  const auto has_all = [&](std::uint32_t i) { return near.of(i).size() >= most_neighbors_at_rest; };
+  const auto has_all = [&](std::uint32_t i) { return near.of(i).size() >= max_neighbors_at_rest; };
   std::vector<std::uint8_t> inside(rest.size(), 0);
   for (std::uint32_t i = 0; i < inside.size(); ++i) {
     const auto around = near.of(i);

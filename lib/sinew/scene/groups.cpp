@@ -91,11 +91,11 @@ std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body
   check_groups(settings, body);
   GroupSizes sizes;
   sizes.joint_distance = asked.joint_distance.value_or(affine_distance);
-  sizes.least = static_cast<std::size_t>(asked.least);
+  sizes.min_particles = static_cast<std::size_t>(asked.min_particles);
   sizes.kept_free = kept_free(body, asked_free(settings, body));
   if (asked.motion == GroupForm::affine || !may_bend(body)) return sizes;
   sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance_of(body));
-  sizes.least_cubic = std::max(sizes.least, sizes.least_cubic);
+  sizes.min_cubic = std::max(sizes.min_particles, sizes.min_cubic);
   return sizes;
 }
 
@@ -113,7 +113,7 @@ double groups_pay_from(const Grouping& grouping, const GroupSizes& sizes, double
       std::max(0.0, share * all - (all - grouped));  // in particles that are free
   const auto largest =
       static_cast<double>(*std::max_element(grouping.sizes.begin(), grouping.sizes.end()));
-  const double whole = static_cast<double>(sizes.least) / largest;
+  const double whole = static_cast<double>(sizes.min_particles) / largest;
   return all * std::max(whole, rim == 0 ? 0 : std::pow(for_rim / grouped, 3));
 }
 

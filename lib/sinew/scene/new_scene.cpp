@@ -26,14 +26,14 @@ namespace sinew {
 namespace {
 
 // Seconds of filling and stepping on two cores, and at least as fine as looks like a body.
-constexpr double fewest = 3000, most = 10000, most_if_split = 60000;
-constexpr double most_overlap = 0.8;  // of the volume by the faces lies there once
-constexpr double across = 4.5;        // particles across a limb
-constexpr double thin_share = 0.1;    // of the limbs' length is thinner than what counts as thin
-constexpr double most_loose = 0.01;   // of the particles, such as single ones at a tip
-constexpr double least_within = 0.1;  // of the particles, with neighbors on all sides
-constexpr double least_inside = 0.5;  // of the limbs' length, in the body
-constexpr double pictures = 24;       // per second
+constexpr double fewest = 3000, most = 10000, max_if_split = 60000;
+constexpr double max_overlap = 0.8;  // of the volume by the faces lies there once
+constexpr double across = 4.5;       // particles across a limb
+constexpr double thin_share = 0.1;   // of the limbs' length is thinner than what counts as thin
+constexpr double max_loose = 0.01;   // of the particles, such as single ones at a tip
+constexpr double min_within = 0.1;   // of the particles, with neighbors on all sides
+constexpr double min_inside = 0.5;   // of the limbs' length, in the body
+constexpr double pictures = 24;      // per second
 // A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
 // of waves, and with them steps per second, go with the size.
 constexpr double usual_size = 0.5, usual_modulus = 10e3;
@@ -63,7 +63,7 @@ Surface read_guessing(NewChoices& choices) {
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
-  if (ambiguous_share(surface) <= most_ambiguous && volume_inside(surface) > 0) return surface;
+  if (ambiguous_share(surface) <= max_ambiguous && volume_inside(surface) > 0) return surface;
   return layer_along(surface, choices);
 }
 
@@ -86,7 +86,7 @@ double share_inside(const std::vector<Limb>& limbs, const Surface& surface) {
 std::vector<Limb> limbs_in(const Surface& surface, NewChoices& choices) {
   try {
     std::vector<Limb> limbs = limbs_of(curve_skeleton(surface.triangles));
-    choices.hollow = !limbs.empty() && share_inside(limbs, surface) < least_inside;
+    choices.hollow = !limbs.empty() && share_inside(limbs, surface) < min_inside;
     if (!limbs.empty() && !choices.hollow) return limbs;
   } catch (const Error&) {  // no closed surface can be made of the mesh
   }
@@ -141,8 +141,8 @@ bool too_coarse(const Particles& particles, std::size_t parts) {
       neighbors_within(positions_of(particles), rest_neighbor_range(particles.radius));
   std::size_t within = 0;
   for (std::size_t i = 0; i < particles.size(); ++i) within += touching.of(i).size() == complete;
-  return loose_share(particles, touching, parts) > most_loose ||
-         static_cast<double>(within) < least_within * static_cast<double>(particles.size());
+  return loose_share(particles, touching, parts) > max_loose ||
+         static_cast<double>(within) < min_within * static_cast<double>(particles.size());
 }
 
 /// By the thickness of limbs, within what a first picture needs and takes.
@@ -164,12 +164,11 @@ void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewCh
   body.radius = usual_radius(inner, volume);
   Particles particles = fill_body(choices.settings, surface).particles;
   const double filled = static_cast<double>(particles.size()) * volume_per_particle(*body.radius);
-  if (filled > 0 && filled < most_overlap * volume) {  // pieces lie within each other
+  if (filled > 0 && filled < max_overlap * volume) {  // pieces lie within each other
     body.radius = usual_radius(inner, filled);
     particles = fill_body(choices.settings, surface).particles;
   }
-  while (too_coarse(particles, parts) &&
-         static_cast<double>(particles.size()) < most_if_split / 2) {
+  while (too_coarse(particles, parts) && static_cast<double>(particles.size()) < max_if_split / 2) {
     body.radius = three_figures(0.8 * *body.radius);
     particles = fill_body(choices.settings, surface).particles;
   }
@@ -206,8 +205,8 @@ void use_limbs(const std::vector<Limb>& limbs, NewChoices& choices) {
 /// Sides no longer than half a limb's thickness, of so many faces at most: halving makes right
 /// triangles whose longest side is up to half as long.
 double bending_side(const Surface& surface, double thickness) {
-  constexpr double most_faces = 40e3;
-  return std::max(thickness / 2, 4 * std::sqrt(area(surface.triangles) / most_faces));
+  constexpr double max_faces = 40e3;
+  return std::max(thickness / 2, 4 * std::sqrt(area(surface.triangles) / max_faces));
 }
 
 /// Writes the mesh anew where its large triangles would not show how the body bends, or where it

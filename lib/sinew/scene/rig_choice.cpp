@@ -22,9 +22,9 @@
 namespace sinew {
 namespace {
 
-constexpr double least_share = 0.5;  // of the bones inside the mesh, for them to belong together
+constexpr double min_share = 0.5;    // of the bones inside the mesh, for them to belong together
 constexpr double longest_clip = 3;   // s of the scene, for a first picture
-constexpr double least_wait = 0.1;   // s of a clip before its first key, to be left out
+constexpr double min_wait = 0.1;     // s of a clip before its first key, to be left out
 constexpr double well_inside = 0.8;  // a share that no fit improves
 constexpr int places_per_bone = 5;
 
@@ -116,7 +116,7 @@ void choose_clip(const Rig& rig, NewChoices& choices) {
   const double preroll = preroll_for(rig.skeleton, clip.motion);
   if (preroll > 0) motion.preroll = preroll;
   const double begin = first_key(clip.motion);
-  if (begin > least_wait) motion.start = begin;
+  if (begin > min_wait) motion.start = begin;
   const double length = clip.duration - motion.start, played = std::min(length, longest_clip);
   choices.clip_note = "The clip " + shown(clip.name) + " of the file, " + three_digits(length) +
                       " s long" + (motion.start > 0 ? " from its first key" : "");
@@ -151,7 +151,7 @@ Vec3 nearest_on(const Bone& bone, const Vec3& point) {
 }
 
 constexpr double longest_rig_in_m = 20;  // of a rig; longer ones are in cm
-constexpr double thick_bone = 0.2, least_bone = 0.015, most_bone = 0.05;  // of its length, the rig
+constexpr double thick_bone = 0.2, min_bone = 0.015, max_bone = 0.05;  // of its length, the rig
 
 }  // namespace
 
@@ -163,9 +163,9 @@ Triangles skin_of_rig(const std::string& path) {
   skeleton = placed(std::move(skeleton), Placement{long_rig ? 0.01 : 1, to_scene(axes)});
   const double size = bounds(skeleton).sizes().maxCoeff();
   Triangles capsules;
-  double thinnest = most_bone * size;
+  double thinnest = max_bone * size;
   for (const Bone& bone : skeleton.bones) {
-    const double radius = std::clamp(thick_bone * bone.length, least_bone * size, most_bone * size);
+    const double radius = std::clamp(thick_bone * bone.length, min_bone * size, max_bone * size);
     thinnest = std::min(thinnest, radius);
     append(capsule_between(bone.head(), bone.tail(), radius), capsules);
     if (bone.parent == no_bone) continue;
@@ -196,8 +196,8 @@ Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
                   three_digits(std::round(100 * placing.share)) + " % of them inside the mesh";
   if (settings.skeleton.fit == Fit::mesh) choices.bones += ", where skeleton.fit brings them";
   if (same) choices.bones = std::to_string(skeleton.size()) + " bones of the file itself";
-  if (placing.share < least_share) choices.bones += ": see skeleton.scale, up and forward";
-  if (!rig.weights.weights.empty() && placing.share >= least_share)
+  if (placing.share < min_share) choices.bones += ": see skeleton.scale, up and forward";
+  if (!rig.weights.weights.empty() && placing.share >= min_share)
     settings.binding.method = BindMethod::file;
   choose_clip(rig.rig, choices);
   if (rig.rig.clips.empty()) bend_ends(skeleton, choices);

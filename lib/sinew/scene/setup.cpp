@@ -99,7 +99,7 @@ bool is_static(const Settings& settings) {
   return settings.solver.method == Method::static_equilibrium;
 }
 
-constexpr double most_steps = 2e9;  // files count them in 32 bits
+constexpr double max_steps = 2e9;  // files count them in 32 bits
 
 /// Of a scene that asks for a damping ratio: what gives it to the body.
 void set_damping_ratio(const Settings& settings, Body& body) {
@@ -193,7 +193,8 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
   setup.obstacles = std::move(around.obstacles);
   setup.probes = std::move(around.probes);
   setup.motion = std::move(rig.motion);
-  setup.file_warnings = warnings_of(files);
+  setup.file_warnings = settings.warnings;
+  for (const std::string& warning : warnings_of(files)) setup.file_warnings.push_back(warning);
   setup.joint_zone = settings.binding.joint_zone;
   setup.weights_given = settings.binding.method == BindMethod::file;
   if (const auto sizes = group_sizes(settings, setup.body)) {
@@ -214,7 +215,7 @@ Setup set_up(const Settings& settings, const SceneFiles& files, const Particles&
     with_context(settings, "output.region", [&] {
       written_particles(settings.output, setup.body.rest, setup.body.material.pair.r);
     });
-  if (static_cast<double>(setup.plan.steps_until(setup.frames.count)) > most_steps)
+  if (static_cast<double>(setup.plan.steps_until(setup.frames.count)) > max_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
                     "make solver.duration shorter or solver.time_step longer");
   return setup;

@@ -57,7 +57,7 @@ struct Setup {
   std::vector<Probe> probes;
   double joint_zone = 0;       ///< in square roots of the bones' cross-section
   bool weights_given = false;  ///< by a file: they distribute rotations in their own manner
-  std::vector<std::string> file_warnings = {};  ///< what its rigs get wrong, with their places
+  std::vector<std::string> file_warnings = {};  ///< what its files get wrong, with their places
   FrameTimes frames;
 };
 

@@ -184,7 +184,7 @@ std::vector<int> parts_of_steps(const Setup& setup) {
   for (const double of_bones : setup.bone_speeds) {
     speed = std::max(of_bones, kept * speed);
     const double carried = speed * setup.steps.step / setup.body.material.pair.r;
-    parts.push_back(static_cast<int>(std::clamp(std::ceil(carried / most_carried), 1.0, 1e6)));
+    parts.push_back(static_cast<int>(std::clamp(std::ceil(carried / max_carried), 1.0, 1e6)));
   }
   return parts;
 }
@@ -233,7 +233,7 @@ LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
   steps.interval = frames.interval;
   steps.last = frames.before(frames.count) / frames.interval;
   steps.count = frames.count + 1;
-  steps.most_iterations = settings.solver.iterations;
+  steps.max_iterations = settings.solver.iterations;
   const bool single = settings.solver.precision == Precision::binary32;
   steps.residual = settings.solver.residual.value_or(single ? 1e-2 : 1e-6);
   steps.acceptable = settings.solver.residual ? 0 : 1e-4;

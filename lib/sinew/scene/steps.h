@@ -50,9 +50,9 @@ StepChoice steps_of(const Settings& settings, const Body& body);
 std::vector<double> bone_speeds(const Setup& setup);
 
 /// With time_step: auto, the steps of each interval are divided until bones carry no particle
-/// farther in one than most_carried radii; otherwise all are even.
+/// farther in one than max_carried radii; otherwise all are even.
 StepPlan plan_of(const Settings& settings, const Setup& setup);
-inline constexpr double most_carried = 0.2;
+inline constexpr double max_carried = 0.2;
 
 /// An upper bound of how far bones carry any particle in one step, in radii.
 double farthest_carried(const Setup& setup);

@@ -38,7 +38,7 @@ constexpr double fastest_bone =
     0.5;  // radii per step: faster bones pass neighbors instead of pushing them
 constexpr double largest_miss = 0.1;   // of a modulus
 constexpr double deepest_start = 0.1;  // radii inside an obstacle: more is visible as a kick
-constexpr double least_shift = 0.1;    // radii: a smaller jump of a bone is invisible
+constexpr double min_shift = 0.1;      // radii: a smaller jump of a bone is invisible
 // In square roots of a bone's cross-section: 0.6 is the rim of a round limb.
 constexpr double far_from_bone = 3;
 constexpr double steepest_joint = 5;  // degrees between two planes: more breaks bonds
@@ -295,7 +295,7 @@ std::vector<std::string> warnings_of(const Setup& setup, const Surface& surface,
   warn_of_speed(bone_speed, warnings);
   for (const Track& track : setup.motion.tracks) warn_of_cut(setup, track, warnings);
   for (std::string& warning :
-       motion_warnings(setup.body.skeleton, setup.motion, least_shift * setup.body.material.pair.r))
+       motion_warnings(setup.body.skeleton, setup.motion, min_shift * setup.body.material.pair.r))
     warnings.push_back(std::move(warning));
   warn_of_groups(setup.body.grouping.get(), warnings);
   warn_of_unit(setup.body, warnings);

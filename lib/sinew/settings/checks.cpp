@@ -104,7 +104,7 @@ void check_relaxation(const Settings& settings) {
   if (count != (times ? times->size() : 0))
     throw bad_input(place, "relaxation_shares and relaxation_times are not of one length",
                     "give a time for each share");
-  if (count == 0 || count > most_relaxation_branches)
+  if (count == 0 || count > max_relaxation_branches)
     throw bad_input(place,
                     "a bond has one to four branches that relax, not " + std::to_string(count),
                     "give fewer shares and times");

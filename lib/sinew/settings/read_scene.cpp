@@ -46,6 +46,37 @@ void place_all(YamlNode& node, const Place& place) {
   for (YamlNode& item : node.items) place_all(item, place);
 }
 
+/// A key that has a new name; scenes may use the old one.
+struct RenamedKey {
+  std::string_view section, before, now;
+};
+constexpr std::array<RenamedKey, 1> renamed_keys = {{{"hierarchy", "least", "min_particles"}}};
+
+std::string warning_of(const Place& place, const RenamedKey& key) {
+  const std::string section = std::string(key.section) + '.';
+  return place.text() + ": " + section + std::string(key.before) + " is now called " + section +
+         std::string(key.now) + "; write that, since the old name may go";
+}
+
+/// Gives the keys of a scene their new names.
+void rename_keys(YamlNode& scene, std::vector<std::string>& warnings) {
+  for (const RenamedKey& renamed : renamed_keys)
+    for (std::size_t s = 0; s < scene.keys.size(); ++s) {
+      if (scene.keys[s].name != renamed.section) continue;
+      YamlNode& section = scene.items[s];
+      for (YamlKey& key : section.keys) {
+        if (key.name != renamed.before) continue;
+        if (section.find(renamed.now) != nullptr)
+          throw bad_input(key.place,
+                          "'" + key.name + "' is the old name of '" + std::string(renamed.now) +
+                              "', which the section has as well",
+                          "remove one of them");
+        warnings.push_back(warning_of(key.place, renamed));
+        key.name = renamed.now;
+      }
+    }
+}
+
 }  // namespace
 
 Override parse_override(const std::string& text) {
@@ -157,8 +188,19 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
 Settings scene_from_text(const std::string& text, const std::string& name,
                          const std::filesystem::path& folder, std::span<const Override> overrides) {
   YamlNode scene = parse_yaml(text, name);
-  for (const Override& given : overrides) apply_override(given, scene);
+  std::vector<std::string> warnings;
+  rename_keys(scene, warnings);
+  for (Override given : overrides) {
+    for (const RenamedKey& key : renamed_keys) {
+      const std::string section = std::string(key.section) + '.';
+      if (given.path != section + std::string(key.before)) continue;
+      warnings.push_back(warning_of({given.given}, key));
+      given.path = section + std::string(key.now);
+    }
+    apply_override(given, scene);
+  }
   Settings settings = read_settings(scene, name, sections());
+  settings.warnings = std::move(warnings);
   apply_preset(settings);
   check_together(settings);
   open_paths_from_here(settings, folder);

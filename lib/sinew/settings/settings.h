@@ -186,7 +186,7 @@ struct HierarchySettings {
   double surface_distance = 0;
   std::optional<std::array<double, 6>> free_region;  ///< x y z of the least corner, of the greatest
   std::string free_bones;
-  int least = 4096;
+  int min_particles = 4096;
 };
 
 struct OutputSettings {
@@ -226,6 +226,7 @@ struct Settings {
 
   /// Where each value was read, by its path: "body.mesh", "skeleton.bones[1].parent".
   std::map<std::string, Place, std::less<>> places;
+  std::vector<std::string> warnings;  ///< of words that have changed, with their places
 
   /// The place of `path`, or of the nearest enclosing path that has one.
   Place place(std::string path) const;

@@ -325,7 +325,7 @@ std::vector<Field<Settings>> make_hierarchy() {
                "none"),
       may_lack("none", field<S>("hierarchy", "free_bones", SINEW_AT(S, hierarchy.free_bones), "",
                                 "free is what any of these bones holds, such as \"hand, wrist\"")),
-      field<S>("hierarchy", "least", SINEW_AT(S, hierarchy.least), "",
+      field<S>("hierarchy", "min_particles", SINEW_AT(S, hierarchy.min_particles), "",
                "particles of a group, at least; of one that bends, 16384 in any case",
                Range{64, 1e9}),
   };

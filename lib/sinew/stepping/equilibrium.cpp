@@ -131,7 +131,7 @@ bool Relaxation::judge(const StepSums& sums) {
     now_.damping = now_.pushed = 0;
     return true;
   }
-  if (now_.iterations >= steps_.most_iterations) give_up();
+  if (now_.iterations >= steps_.max_iterations) give_up();
   find_damping(sums.imbalance);
   return false;
 }

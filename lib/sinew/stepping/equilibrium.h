@@ -27,7 +27,7 @@ struct LoadSteps {
   double interval = 0;     ///< s
   int count = 1;           ///< moments, that at 0 included
   double residual = 1e-6;  ///< of forces that nothing answers, over the largest of those applied
-  std::int64_t most_iterations = 200'000;  ///< for each moment
+  std::int64_t max_iterations = 200'000;  ///< for each moment
   /// Before each moment, how many iterations bones and surroundings take to get there from the one
   /// before; none: one each.
   std::vector<int> ramp = {};

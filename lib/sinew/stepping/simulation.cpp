@@ -389,7 +389,7 @@ void Simulation::fail() {
       Exit::unstable,
       "step " + std::to_string(its_->steps) + " at " + three_digits(time()) + " s: particle " +
           std::to_string(id) + where +
-          (worst.finite ? " moved over " + three_digits(most_radii_per_step) +
+          (worst.finite ? " moved over " + three_digits(max_radii_per_step) +
                               (bones.empty() ? " r relative to its previous motion in one step"
                                              : " r relative to its bone in one step")
                         : std::string(" reached a value that is not finite")) +

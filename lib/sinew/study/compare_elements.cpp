@@ -26,14 +26,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double most_outside = 0.5;  // elements: the corners of curved sides stay far below
+constexpr double max_outside = 0.5;  // elements: the corners of curved sides stay far below
 
 /// Places of the run's body in the elements.
 std::vector<ElementPlace> places_of(const FrdResult& result, const Points& points, const char* what,
                                     const fs::path& file) {
   std::vector<ElementPlace> places = places_in(result.mesh, points);
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (!(places[i].outside <= most_outside))
+    if (!(places[i].outside <= max_outside))
       throw bad_input(Place{file.string()},
                       std::string("is of another body: ") + what + ' ' + std::to_string(i) +
                           " of the run lies outside of its elements",

@@ -16,7 +16,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t most_curves = 30;  // of results over the radius
+constexpr std::size_t max_curves = 30;  // of results over the radius
 // Of the largest result of its unit: less is zero but for rounding and the sides of the packing.
 constexpr double telling = 1e-3;
 
@@ -95,7 +95,7 @@ std::vector<LawCurve> curves_of(const Study& study) {
     if (drawn(result)) largest[result.unit] = std::max(largest[result.unit], size_of(result));
   std::vector<LawCurve> curves;
   for (const StudiedResult& result : study.results)
-    if (curves.size() < most_curves && drawn(result) &&
+    if (curves.size() < max_curves && drawn(result) &&
         size_of(result) > telling * largest[result.unit])
       curves.push_back(curve_of(study, result));
   return curves;

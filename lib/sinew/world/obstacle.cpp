@@ -17,10 +17,10 @@ void check_constant(const Obstacle& obstacle, const std::string& key, double val
 }
 
 /// Coulomb's law, with a slope in the velocity of at most `stick`.
-Vec3 rub(double most_force, double stick, const Vec3& sliding) {
+Vec3 rub(double max_force, double stick, const Vec3& sliding) {
   const double speed = sliding.norm();
   if (!(speed > 0)) return Vec3::Zero();
-  return -std::min(most_force / speed, stick) * sliding;
+  return -std::min(max_force / speed, stick) * sliding;
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ int PressedFaces::planned(const std::vector<Four>& now) const {
     steps /= 2;
   else if (error <= tolerance / growth_when_doubled)
     steps *= 2;
-  while (steps > 1 && (steps > most_steps || steps * in_step > most_change)) steps /= 2;
+  while (steps > 1 && (steps > max_steps || steps * in_step > max_change)) steps /= 2;
   return std::max(steps, 1);
 }
 
@@ -168,7 +168,7 @@ void PressedFaces::save(std::vector<double>& state) const {
 bool PressedFaces::restore(const double* state) {
   if (empty()) return true;
   const auto is_count = [](double value) {
-    return value >= 0 && value <= most_steps && value == std::floor(value);
+    return value >= 0 && value <= max_steps && value == std::floor(value);
   };
   if (!is_count(state[1]) || !is_count(state[2]) || (state[0] != 0 && state[1] < 1)) return false;
   moving_ = *state++ != 0;

@@ -8,7 +8,7 @@
 //     if (pressed.find([&](std::size_t k) { return position_of(k); }, true))  // before each step
 //       ... pressed.force(k) has changed
 //
-// A surface turns by little in a step, so its forces are found once for up to most_steps of them,
+// A surface turns by little in a step, so its forces are found once for up to max_steps of them,
 // where each corner will be in their middle if it moves on as it did: how many is judged by how far
 // the last such guess was off. What a body does so depends on its steps and its state alone.
 #pragma once
@@ -27,11 +27,11 @@ namespace sinew {
 class PressedFaces {
  public:
   /// Steps for which forces may hold.
-  static constexpr int most_steps = 16;
+  static constexpr int max_steps = 16;
   /// So far may sides of faces be from what was expected of them, over their lengths, rms.
   static constexpr double tolerance = 1e-3;
   /// So much they may change meanwhile.
-  static constexpr double most_change = 0.02;
+  static constexpr double max_change = 0.02;
 
   PressedFaces() = default;  ///< none
   /// `faces` of `corners`, which follow `particles` of them.

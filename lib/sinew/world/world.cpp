@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t most_contacts = 3;  // of one particle at once, for the step limit
+constexpr std::size_t max_contacts = 3;  // of one particle at once, for the step limit
 
 /// Gathers the forces on one particle.
 class Gatherer {
@@ -89,7 +89,7 @@ class Gatherer {
 /// The sum of the values that can act on one particle at once.
 double largest_few(std::vector<double> values) {
   std::sort(values.begin(), values.end(), std::greater<>());
-  values.resize(std::min(values.size(), most_contacts));
+  values.resize(std::min(values.size(), max_contacts));
   double sum = 0;
   for (const double value : values) sum += value;
   return sum;

@@ -15,16 +15,16 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr std::size_t most_solved = 4000;  // exactly: beyond, the factors fill up
+constexpr std::size_t max_solved = 4000;  // exactly: beyond, the factors fill up
 constexpr std::size_t groups_wanted = 1000;
-constexpr int most_iterations = 60;
+constexpr int max_iterations = 60;
 
 }  // namespace
 
 NearlySolved::NearlySolved(const FreeBody& free, double shift) : matrix_(free.springs()) {
   matrix_.diagonal() += shift * free.mass();
   const Body& body = free.body();
-  if (body.rest.size() <= most_solved) {
+  if (body.rest.size() <= max_solved) {
     solver_.compute(matrix_);
     return;
   }
@@ -47,7 +47,7 @@ Vector NearlySolved::solve_well(const Vector& b) const {
   Vector residual = b - matrix_ * x, preconditioned = solve(residual), along = preconditioned;
   double product = residual.dot(preconditioned);
   const double enough = 1e-8 * b.dot(x);
-  for (int n = 0; n < most_iterations && product > enough; ++n) {
+  for (int n = 0; n < max_iterations && product > enough; ++n) {
     const Vector forces = matrix_ * along;
     const double step = product / along.dot(forces);
     x += step * along;

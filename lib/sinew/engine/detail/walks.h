@@ -21,8 +21,8 @@ void walk(Bone& bone, Transfer& transfer) {
   transfer(bone.length);
   transfer(bone.rest);
   transfer(bone.limits.swing);
-  transfer(bone.limits.least_twist);
-  transfer(bone.limits.most_twist);
+  transfer(bone.limits.min_twist);
+  transfer(bone.limits.max_twist);
   for (double* factor : {&bone.strength.radial, &bone.strength.twist, &bone.strength.axial})
     transfer(*factor);
 }

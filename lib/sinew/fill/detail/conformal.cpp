@@ -143,7 +143,7 @@ Irregular conformal_packing(const BodySpace& space, const PackOptions& options,
     relax(places, {.distance = nearest_distance(r),
                    .held = outer.deep(),
                    .field = [&](std::size_t i, const Vec3& at) { return outer.force(i, at); },
-                   .most_steps = steps_of_each});
+                   .max_steps = steps_of_each});
   }
   Irregular packed;
   const Winding winding = winding_of(space.surface);

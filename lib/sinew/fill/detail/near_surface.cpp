@@ -188,7 +188,7 @@ class Rasterizer {
         rows_(lattice),
         distance_(distance),
         tiles_up_(tiles(static_cast<int>(lattice.layers.size()))),
-        tiles_across_(tiles(most_rows(lattice))),
+        tiles_across_(tiles(max_rows(lattice))),
         points_(surface.points.size()) {
     turn_points();
     sort_into_tiles();
@@ -208,7 +208,7 @@ class Rasterizer {
   };
 
   static int tiles(int rows) { return (rows + tile_edge - 1) / tile_edge; }
-  static int most_rows(const Lattice& lattice) {
+  static int max_rows(const Lattice& lattice) {
     int most = 0;
     for (const LatticeLayer& layer : lattice.layers) most = std::max(most, layer.rows);
     return most;

@@ -27,7 +27,7 @@ class Relaxation {
         velocity_(points.size(), Vec3::Zero()) {}
 
   void run() {
-    for (int step = 0; step < options_.most_steps; ++step) {
+    for (int step = 0; step < options_.max_steps; ++step) {
       find_forces();
       if (largest(force_) < options_.enough) return;
       steer();

@@ -19,7 +19,7 @@ struct RelaxOptions {
   const std::vector<char>& held;  ///< by particle: whether it stays where it is
   /// A further force on a particle at a place, over that of a pair at d = 0; none: nothing.
   std::function<Vec3(std::size_t particle, const Vec3& place)> field = {};
-  int most_steps = 150;
+  int max_steps = 150;
   double enough = 1e-3;  ///< stops once nobody feels more than this, over the force at d = 0
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double finer = 1.5;  // radius of the particles over that of the samples
 constexpr int rotations = 24;  // of a cube
 constexpr double samples_per_particle = rotations * finer * finer * finer;
-constexpr double most_scaling = 1.25, least_share = 0.2;
+constexpr double max_scaling = 1.25, min_share = 0.2;
 
 /// An orientation along no plane or row of the lattice.
 Mat3 oblique() {
@@ -95,7 +95,7 @@ void balance(const Owners& owners, const Sampled& sampled, std::vector<double>& 
       share[j] -= moved;
     }
   }
-  for (double& one : share) one = std::max(one, least_share);
+  for (double& one : share) one = std::max(one, min_share);
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ std::vector<double> volume_shares(const Surface& surface, const PackOptions& opt
     (whole ? inside : outside) += share[i];
   }
   const double wanted = volume / volume_per_particle(lattice.radius) - inside;
-  if (volume > 0 && wanted > outside / most_scaling && wanted < outside * most_scaling)
+  if (volume > 0 && wanted > outside / max_scaling && wanted < outside * max_scaling)
     for (std::size_t i = 0; i < share.size(); ++i)
       if (!owners.surrounded(i)) share[i] *= wanted / outside;
   balance(owners, sampled, share);

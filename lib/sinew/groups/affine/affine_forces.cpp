@@ -16,14 +16,14 @@ namespace sinew {
 namespace {
 
 constexpr double off_site = 1e-6;  // in radii: above rounding of files' coordinates
-constexpr int most_planes = 2;     // to a second neighbor
+constexpr int max_planes = 2;      // to a second neighbor
 
 bool holds_seconds(const Material& material) { return material.bond.second > 0; }
 
 /// Of whole coordinates, or -1 where they are too large.
 int cell_of(const Vec3& site) {
-  if (!(site.cwiseAbs().maxCoeff() < most_planes + 0.5)) return -1;
-  const auto at = [&](int axis) { return static_cast<int>(std::lround(site[axis])) + most_planes; };
+  if (!(site.cwiseAbs().maxCoeff() < max_planes + 0.5)) return -1;
+  const auto at = [&](int axis) { return static_cast<int>(std::lround(site[axis])) + max_planes; };
   return (at(0) * 5 + at(1)) * 5 + at(2);
 }
 
@@ -56,8 +56,8 @@ AffineForces::AffineForces(const Body& body)
   const double spacing = half_plane_spacing(body.material.pair.r);
   for (const int squares : {2, 4})
     for (int cell = 0; cell < 125; ++cell) {
-      const int x = cell / 25 - most_planes, y = cell / 5 % 5 - most_planes;
-      const Vec3 site(x, y, cell % 5 - most_planes);
+      const int x = cell / 25 - max_planes, y = cell / 5 % 5 - max_planes;
+      const Vec3 site(x, y, cell % 5 - max_planes);
       if (site.squaredNorm() != squares) continue;
       at_[static_cast<std::size_t>(cell)] = static_cast<int>(site_.size());
       site_.push_back(spacing * (body.lattice * site));

@@ -8,8 +8,8 @@
 namespace sinew {
 namespace {
 
-constexpr double flattest = 1e-6;     // of mean squares along an axis, of the largest
-constexpr double least_apart = 1e-7;  // eigenvalue of products, of the largest
+constexpr double flattest = 1e-6;   // of mean squares along an axis, of the largest
+constexpr double min_apart = 1e-7;  // eigenvalue of products, of the largest
 
 /// Of a polynomial's values, over the sums of theirs times the terms, and of their squares.
 double mean_square(double squares, const Coefficients& times_terms, const TermProducts& products,
@@ -35,7 +35,7 @@ FitFrame::FitFrame(const Points& places) {
 
 bool tells_apart(const TermProducts& products) {
   const Eigen::SelfAdjointEigenSolver<TermProducts> values(products, Eigen::EigenvaluesOnly);
-  return values.eigenvalues()[0] > least_apart * values.eigenvalues()[cubic_terms - 1];
+  return values.eigenvalues()[0] > min_apart * values.eigenvalues()[cubic_terms - 1];
 }
 
 void CubicSums::add(const Terms& terms, const Vec3& displacement, const Vec3& velocity) {

@@ -11,11 +11,11 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t least_samples = 128;
+constexpr std::size_t min_samples = 128;
 // What has fewer is small, and what pulls it is nearly linear there.
-constexpr std::size_t few_blocks = 512, least_of_few = 64;
-constexpr double least_weight = 0.1, most_weight = 5;  // of an equal share
-constexpr int most_fits = 30;
+constexpr std::size_t few_blocks = 512, min_of_few = 64;
+constexpr double min_weight = 0.1, max_weight = 5;  // of an equal share
+constexpr int max_fits = 30;
 
 /// The upper bits of a number that looks like chance: rows of a lattice repeat, samples must not.
 std::uint64_t scattered(std::uint64_t number) {
@@ -53,7 +53,7 @@ struct Sampling {
 };
 
 Sampling sampling_of(std::size_t blocks) {
-  if (blocks < few_blocks) return {square_terms, std::max<std::size_t>(blocks / least_of_few, 1)};
+  if (blocks < few_blocks) return {square_terms, std::max<std::size_t>(blocks / min_of_few, 1)};
   return {quartic_terms, 2 * stretch_of(blocks)};
 }
 
@@ -90,9 +90,7 @@ QuarticTerms quartic_terms_at(const Vec3& at) {
   return all;
 }
 
-std::size_t stretch_of(std::size_t count) {
-  return std::max<std::size_t>(count / least_samples, 1);
-}
+std::size_t stretch_of(std::size_t count) { return std::max<std::size_t>(count / min_samples, 1); }
 
 bool is_sample(std::size_t n, std::size_t stretch) {
   return n % stretch == scattered(n / stretch) % stretch;
@@ -106,19 +104,19 @@ std::vector<double> weights_of(const Eigen::MatrixXd& samples, const Eigen::Vect
   const double even = static_cast<double>(count) / static_cast<double>(samples.cols());
   Eigen::VectorXd weights = Eigen::VectorXd::Constant(samples.cols(), even);
   Eigen::MatrixXd free = samples;
-  for (int round = 0; round < most_fits; ++round) {
+  for (int round = 0; round < max_fits; ++round) {
     const Eigen::VectorXd missing = all - samples * weights;
     weights += free.completeOrthogonalDecomposition().solve(missing);
     bool any = false;
     for (Eigen::Index s = 0; s < weights.size(); ++s) {
-      if (weights[s] >= least_weight * even) continue;
-      any = any || weights[s] < least_weight * even * (1 - 1e-9);
-      weights[s] = least_weight * even;
+      if (weights[s] >= min_weight * even) continue;
+      any = any || weights[s] < min_weight * even * (1 - 1e-9);
+      weights[s] = min_weight * even;
       free.col(s).setZero();
     }
     if (any) continue;
     const double off = (samples * weights - all).cwiseAbs().maxCoeff();
-    if (off < 1e-9 * all[0] && weights.maxCoeff() < most_weight * even)
+    if (off < 1e-9 * all[0] && weights.maxCoeff() < max_weight * even)
       return {weights.begin(), weights.end()};
     break;
   }

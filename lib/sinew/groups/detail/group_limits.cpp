@@ -22,10 +22,10 @@ constexpr std::size_t boxes_at_a_time = 64;
 // Rates of strain are found once in so many steps; until then they grow by less than this factor.
 constexpr int steps_between_rates = 8;
 constexpr double rates_ahead = 1.25;
-constexpr double most_margin = 0.2;       // of strain, between looks at stretches
-constexpr double enough = 1.05;           // times what a length must keep
-constexpr double least_looked_at = 0.35;  // stretch that ends a run in any case
-constexpr double least_change = 0.02;     // of stretches within a box, which is not cut further
+constexpr double max_margin = 0.2;      // of strain, between looks at stretches
+constexpr double enough = 1.05;         // times what a length must keep
+constexpr double min_looked_at = 0.35;  // stretch that ends a run in any case
+constexpr double min_change = 0.02;     // of stretches within a box, which is not cut further
 
 /// Largest sizes of second derivatives within a group.
 struct Curvature {
@@ -267,14 +267,14 @@ PieceNow GroupLimits<Real>::piece_now(std::size_t piece, const Units& units) con
 template <class Real>
 void GroupLimits<Real>::find_far_sites() {
   const double r = body_->material.pair.r;
-  constexpr int most_planes = 8;
-  for (int x = -most_planes; x <= most_planes; ++x)
-    for (int y = -most_planes; y <= most_planes; ++y)
-      for (int z = 0; z <= most_planes; ++z) {
+  constexpr int max_planes = 8;
+  for (int x = -max_planes; x <= max_planes; ++x)
+    for (int y = -max_planes; y <= max_planes; ++y)
+      for (int z = 0; z <= max_planes; ++z) {
         const Vec3 site = half_plane_spacing(r) * (body_->lattice * Vec3(x, y, z));
         const double distance = site.norm();
         if ((x + y + z) % 2 == 0 && distance > second_neighbor_range * r &&
-            distance * least_looked_at < 2 * r)
+            distance * min_looked_at < 2 * r)
           far_sites_.push_back(site);
       }
 }
@@ -285,7 +285,7 @@ void GroupLimits<Real>::check_stretch() {
   for (std::size_t k = 0; k < boxes_.size();) {
     const std::uint32_t piece = boxes_[k].piece;
     const bool due = !(strains_[piece] < strained_until_[piece]);
-    double spare = std::exp(most_margin);
+    double spare = std::exp(max_margin);
     for (; k < boxes_.size() && boxes_[k].piece == piece; ++k)
       if (due) spare = std::min(spare, spare_in(boxes_[k]));
     if (due) strained_until_[piece] = strains_[piece] + std::log(spare) * (1 - 1e-6);
@@ -300,7 +300,7 @@ double GroupLimits<Real>::spare_in(const PieceBox& one) const {
   const Mat3 curvature = curvature_of(shape, motion_of(one)).x;
   const Vec3 weight = shape.frame.rowwise().norm();
   std::vector<Box> boxes{one.box};
-  double least = std::exp(most_margin);
+  double least = std::exp(max_margin);
   while (!boxes.empty()) {
     Box box = boxes.back();
     boxes.pop_back();
@@ -308,7 +308,7 @@ double GroupLimits<Real>::spare_in(const PieceBox& one) const {
     const double changes = (curvature * half).dot(weight);
     const Mat3 F = motion_at(shape, motion_of(one), box.center()).dx * shape.frame;
     const double of_box = shape.cubic ? spare_of_cubic(F, changes) : spare_of(F);
-    if (of_box > enough || changes < least_change) {
+    if (of_box > enough || changes < min_change) {
       if (!(of_box > 1))
         throw unstable_group("squeezed", std::sqrt(std::max(0.0, squared_stretches(F)[0])),
                              "begin");
@@ -328,8 +328,8 @@ template <class Real>
 double GroupLimits<Real>::spare_of(const Mat3& F) const {
   const Vec3 squares = squared_stretches(F);
   const double most = std::sqrt(squares[2]);
-  if (most > stretch_.most) throw unstable_group("stretched", most, "end");
-  return std::min(std::sqrt(std::max(0.0, squares[0])) / stretch_.least, stretch_.most / most);
+  if (most > stretch_.max) throw unstable_group("stretched", most, "end");
+  return std::min(std::sqrt(std::max(0.0, squares[0])) / stretch_.min, stretch_.max / most);
 }
 
 /// Of particles that are no neighbors at rest, none may touch.
@@ -337,9 +337,9 @@ template <class Real>
 double GroupLimits<Real>::spare_of_cubic(const Mat3& F, double changes) const {
   if (F.determinant() <= 0) return 0;
   const double least = std::sqrt(std::max(0.0, squared_stretches(F)[0])) - changes;
-  double spare = least / stretch_.least_cubic;
+  double spare = least / stretch_.min_cubic;
   if (spare > 1) return spare;
-  spare = least / least_looked_at;
+  spare = least / min_looked_at;
   for (const Vec3& site : far_sites_)
     spare =
         std::min(spare, ((F * site).norm() - changes * site.norm()) / (2 * body_->material.pair.r));

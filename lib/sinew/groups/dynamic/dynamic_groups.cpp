@@ -21,7 +21,7 @@ constexpr std::size_t particles_per_count = 8192;
 constexpr int moments_ahead = 16;
 // Groups are worth the work of making them if no joint of theirs moves for so many checks.
 constexpr double checks_ahead = 16;
-constexpr int most_rounds = 4;  // of what is grown and found not to fit
+constexpr int max_rounds = 4;  // of what is grown and found not to fit
 // Of how far off the worst is, squared: what leaves at once with it.
 constexpr double leaving_share = 0.25;
 constexpr double free_share = 0.5;  // of the tolerance, for what was free
@@ -105,8 +105,8 @@ DynamicGroups::DynamicGroups(std::shared_ptr<const Body> body, Motion motion, do
     : body_(std::move(body)),
       motion_(std::move(motion)),
       options_(options),
-      most_held_(options.tolerance * body_->material.pair.r * stiffness_of_place *
-                 body_->material.stiffness() / mass),
+      max_held_(options.tolerance * body_->material.pair.r * stiffness_of_place *
+                body_->material.stiffness() / mass),
       near_(neighbors_within(body_->rest, rest_neighbor_range(body_->material.pair.r))),
       cell_(body_->rest.size()) {
   const double edge = cell_edge * 2 * body_->material.pair.r;
@@ -149,7 +149,7 @@ std::vector<bool> DynamicGroups::moving(const GroupingMoment& now, double ahead)
 }
 
 bool DynamicGroups::is_held_above(double share, const HeldCell& cell) const {
-  const double most = share * most_held_;
+  const double most = share * max_held_;
   return cell.squares > most * most * cell.count;
 }
 
@@ -231,7 +231,7 @@ void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) co
     ++next;
     return all;
   };
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     bool all = true;
     for (const std::size_t seed : seeds)
       if (units[seed].fits && units[seed].group < 0) all = grow_from(seed) && all;
@@ -250,7 +250,7 @@ void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
     const std::vector<std::size_t>& of = part.second;
     const std::vector<CubicSums> sums = units.cubic_sums(of);
     const auto unit = [&](std::size_t n) -> Unit& { return units.all()[of[n]]; };
-    const auto least = static_cast<double>(options_.sizes.least_cubic);
+    const auto least = static_cast<double>(options_.sizes.min_cubic);
     CubicGrowth growth(sums, least, [&](std::size_t n, const CubicMotion& motion) {
       return share_of_most(now, unit(n).was_grouped(), residual(sums[n], motion));
     });
@@ -301,7 +301,7 @@ void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
   for (std::size_t u = 0; u < units.all().size(); ++u)
     if (const std::int32_t joined = units.all()[u].group; joined >= 0)
       for (const std::uint32_t i : units.members(u)) group[i] = first + joined;
-  separate(near_, cubic ? sizes.least_cubic : sizes.least, group);
+  separate(near_, cubic ? sizes.min_cubic : sizes.min_particles, group);
   if (!cubic) return;
   free_sheets(*body_, group);
   for (std::size_t u = 0; u < units.all().size(); ++u)

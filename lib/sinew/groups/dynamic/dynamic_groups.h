@@ -77,7 +77,7 @@ class DynamicGroups {
   std::shared_ptr<const Body> body_;
   Motion motion_;
   DynamicOptions options_;
-  double most_held_;    ///< m/s^2
+  double max_held_;     ///< m/s^2
   NeighborLists near_;  ///< nearest ones, by id
   std::vector<std::int32_t> cell_;
   std::array<std::int32_t, 3> cells_along_{};

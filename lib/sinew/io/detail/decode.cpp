@@ -105,7 +105,7 @@ std::optional<Blocks> take_blocks(std::string_view& data, const Coding& coding,
 std::optional<Decoded> decompressed(std::string_view data, const Coding& coding,
                                     std::uint64_t count) {
   const auto blocks = take_blocks(data, coding, count);
-  if (!blocks || count / most_expansion > blocks->starts.back()) return std::nullopt;
+  if (!blocks || count / max_expansion > blocks->starts.back()) return std::nullopt;
   const auto& starts = blocks->starts;
   const auto from = take(data, coding, starts.back());
   if (!from) return std::nullopt;

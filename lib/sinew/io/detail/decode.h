@@ -32,6 +32,6 @@ struct Decoded {
 std::optional<Decoded> decoded(std::string_view data, const Coding& coding, std::uint64_t count);
 
 /// Maximal compression ratio of zlib, which is the larger of the two compressors'.
-inline constexpr std::uint64_t most_expansion = 1032;
+inline constexpr std::uint64_t max_expansion = 1032;
 
 }  // namespace sinew

@@ -99,7 +99,7 @@ VtkXmlFile vtk_xml_file(std::string_view text) {
   file.type = root.attribute("type");
   VtuArrays& arrays = file.arrays;
   arrays.within = arrays.behind = coding_of(root);
-  arrays.most = text.size() * most_expansion;
+  arrays.most = text.size() * max_expansion;
   const XmlElement& last = file.elements.back();
   if (last.path != appended_path) return file;
   arrays.behind.base64 = last.attribute("encoding") != "raw";

@@ -17,7 +17,7 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t values_at_a_time = 1 << 15;
-constexpr std::uint64_t most_components = 1000;
+constexpr std::uint64_t max_components = 1000;
 constexpr double unasked_bytes = 64 << 20;
 
 Error of_array(const XmlElement& array, const std::string& what) {
@@ -131,7 +131,7 @@ bool fit_int32(std::string_view bytes) {
 std::uint64_t components_of(const XmlElement& array, const VtuArrays& file) {
   if (array.attribute("NumberOfComponents").empty()) return 1;
   const std::uint64_t components = file.count(array, "NumberOfComponents");
-  if (components == 0 || components > most_components)
+  if (components == 0 || components > max_components)
     throw of_array(array, "has " + std::to_string(components) + " components");
   return components;
 }

@@ -34,9 +34,9 @@ std::string cure_for(std::string_view extension) {
 /// glTF 2 without required extensions that change shapes.
 void check_version(const GltfDocument& document) {
   const auto is_2 = [](std::string_view version) { return version.starts_with("2."); };
-  if (!is_2(document.version) || document.least_version > "2.0")
+  if (!is_2(document.version) || document.min_version > "2.0")
     throw bad_input("it is of glTF version " +
-                        shown(is_2(document.version) ? document.least_version : document.version),
+                        shown(is_2(document.version) ? document.min_version : document.version),
                     "export it as glTF 2.0");
   for (const std::string& extension : document.extensions_required)
     if (!leaves_shapes(extension))

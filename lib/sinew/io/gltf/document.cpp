@@ -16,15 +16,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int deepest_nesting = 100;       // real files are nested to about 10
-constexpr std::int64_t most_values = 4e6;  // each takes about 100 bytes once parsed
-constexpr std::size_t most_items = 100'000;
+constexpr int deepest_nesting = 100;      // real files are nested to about 10
+constexpr std::int64_t max_values = 4e6;  // each takes about 100 bytes once parsed
+constexpr std::size_t max_items = 100'000;
 
 /// Checked before parsing: deeply nested values are later copied and freed by recursion.
 void check_extent(std::string_view json) {
   const JsonExtent extent = json_extent(json);
   if (extent.depth > deepest_nesting) throw damaged_gltf("its JSON is nested more than 100 deep");
-  if (extent.values > most_values) throw damaged_gltf("its JSON holds more than 4 million values");
+  if (extent.values > max_values) throw damaged_gltf("its JSON holds more than 4 million values");
 }
 
 Json parsed(std::string_view text) {
@@ -40,12 +40,12 @@ Json parsed(std::string_view text) {
 
 /// The integer that a JSON number represents: 100 may be written 1e2.
 std::optional<std::int64_t> integer_in(const Json& value) {
-  constexpr double most_exact = 9007199254740992;  // 2^53
+  constexpr double max_exact = 9007199254740992;  // 2^53
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX) return std::nullopt;
   if (value.is_number_integer()) return value.get<std::int64_t>();
   if (!value.is_number_float()) return std::nullopt;
   const double number = value.get<double>();
-  if (std::abs(number) > most_exact || number != std::floor(number)) return std::nullopt;
+  if (std::abs(number) > max_exact || number != std::floor(number)) return std::nullopt;
   return static_cast<std::int64_t>(number);
 }
 
@@ -65,7 +65,7 @@ std::int64_t whole_in(const Json& value, const std::string& name, std::int64_t l
 }
 
 int index_in(const Json& value, const std::string& name) {
-  return static_cast<int>(whole_in(value, name, 0, most_gltf_bytes));
+  return static_cast<int>(whole_in(value, name, 0, max_gltf_bytes));
 }
 
 double number_in(const Json& value, const std::string& name) {
@@ -95,7 +95,7 @@ class Field {
 
   std::vector<Field> items() const {  ///< of an array
     std::vector<Field> items;
-    if (array().size() > most_items)
+    if (array().size() > max_items)
       throw bad_input(
           name_ + " lists " + std::to_string(array().size()) + " items, more than 100000",
           "export only what is needed");
@@ -103,7 +103,7 @@ class Field {
     return items;
   }
 
-  std::int64_t whole(std::int64_t least, std::int64_t most = most_gltf_bytes) const {
+  std::int64_t whole(std::int64_t least, std::int64_t most = max_gltf_bytes) const {
     return whole_in(given_value(), name_, least, most);
   }
   std::int64_t whole_or(std::int64_t other) const { return given() ? whole(0) : other; }
@@ -341,7 +341,7 @@ GltfDocument gltf_document(std::string_view json) {
   const Field asset = root["asset"];
   GltfDocument document;
   document.version = asset["version"].text();
-  document.least_version = asset["minVersion"].text_or_none();
+  document.min_version = asset["minVersion"].text_or_none();
   document.extensions_required = all(root["extensionsRequired"], text_in);
   document.buffers = all(root["buffers"], buffer_in);
   document.views = all(root["bufferViews"], view_in);

@@ -113,7 +113,7 @@ struct GltfAnimation {
 };
 
 struct GltfDocument {
-  std::string version, least_version;  ///< least_version: "" where the file names none
+  std::string version, min_version;  ///< min_version: "" where the file names none
   std::vector<std::string> extensions_required;
   std::vector<GltfBuffer> buffers;
   std::vector<GltfView> views;
@@ -131,7 +131,7 @@ int size_of(GltfNumber number);
 int components_of(std::string_view type);
 
 /// Upper bound on lengths and indices in a file, in bytes or elements: 32 bits with a sign.
-inline constexpr std::int64_t most_gltf_bytes = 2147483647;
+inline constexpr std::int64_t max_gltf_bytes = 2147483647;
 
 /// Checks the form of each field it reads (type, length, range), not what indices refer to. Throws
 /// bad input (without the path) naming the field, and for JSON that is damaged, nested more than

@@ -20,8 +20,8 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 using Floats = std::vector<float>;
 
-constexpr std::size_t most_samples = 500;
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t max_clip_samples = 500;
+constexpr std::size_t max_bytes = std::size_t{1} << 30;
 
 /// A JSON list of one element.
 OrderedJson list_of(OrderedJson only) {
@@ -34,8 +34,8 @@ OrderedJson list_of(OrderedJson only) {
 std::vector<std::size_t> taken_samples(const CachedPoints& cache, std::size_t bytes) {
   if (cache.samples() == 0 || cache.points() == 0)
     throw bad_input("the point cache is empty", "run the scene again");
-  const std::size_t fit = most_bytes / std::max<std::size_t>(bytes, 1);
-  const std::size_t most = std::clamp<std::size_t>(fit, 2, most_samples);
+  const std::size_t fit = max_bytes / std::max<std::size_t>(bytes, 1);
+  const std::size_t most = std::clamp<std::size_t>(fit, 2, max_clip_samples);
   const std::size_t last = cache.samples() - 1, every = last / most + 1;
   std::vector<std::size_t> taken;
   for (std::size_t k = 0; k < last; k += every) taken.push_back(k);

@@ -16,13 +16,13 @@
 namespace sinew {
 namespace {
 
-constexpr int most_sets = 8;  // exporters write one or two
+constexpr int max_sets = 8;  // exporters write one or two
 
 /// A small file can refer to the same numbers many thousand times.
 void check_size(const GltfDocument& document) {
   constexpr double key = 100, node = 1000;  // bytes
-  constexpr double most_visits = 1e8;       // of nodes, about 10 s
-  constexpr std::size_t most_animations = 10000;
+  constexpr double max_visits = 1e8;        // of nodes, about 10 s
+  constexpr std::size_t max_animations = 10000;
   double bytes = node * static_cast<double>(document.nodes.size()), keys = 0;
   for (const GltfAnimation& animation : document.animations)
     for (const GltfChannel& channel : animation.channels) {
@@ -33,8 +33,8 @@ void check_size(const GltfDocument& document) {
   bytes += key * keys;
   const double visits =
       static_cast<double>(document.nodes.size()) * static_cast<double>(document.animations.size());
-  if (bytes > available_memory() || visits > most_visits ||
-      document.animations.size() > most_animations)
+  if (bytes > available_memory() || visits > max_visits ||
+      document.animations.size() > max_animations)
     throw bad_input("its " + std::to_string(document.animations.size()) + " animations of " +
                         std::to_string(document.nodes.size()) + " nodes hold " +
                         std::to_string(static_cast<std::int64_t>(keys)) + " keys, too many",
@@ -137,7 +137,7 @@ void check_set(const Set& set, std::size_t joints, const std::string& user) {
 std::vector<Set> sets_of(const CheckedGltf& gltf, const GltfPrimitive& primitive,
                          std::size_t joints, const std::string& user) {
   std::vector<Set> sets;
-  for (int i = 0; i < most_sets; ++i) {
+  for (int i = 0; i < max_sets; ++i) {
     const auto found = primitive.attributes.find("JOINTS_" + std::to_string(i));
     if (found == primitive.attributes.end()) break;
     const int weights = primitive.attributes.at("WEIGHTS_" + std::to_string(i));

@@ -91,7 +91,7 @@ std::vector<bool> cavities_of(const Triangles& surface, const Patches& patches,
 
 namespace {
 
-constexpr std::size_t most_samples = 256;
+constexpr std::size_t max_samples = 256;
 
 bool holds(const Box& outer, const Box& inner) {
   return outer.contains(inner) && outer.sizes() != inner.sizes();
@@ -127,7 +127,7 @@ void for_each_held(std::span<const Box> boxes, Visit&& visit) {
 
 Points samples_of(const Shell& shell) {
   Points samples;
-  const std::size_t count = std::min(shell.faces.size(), most_samples);
+  const std::size_t count = std::min(shell.faces.size(), max_samples);
   for (std::size_t i = 0; i < count; ++i) {
     const Corners& face = shell.faces[i * shell.faces.size() / count];
     samples.push_back((face[0] + face[1] + face[2]) / 3);

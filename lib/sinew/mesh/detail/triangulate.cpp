@@ -14,7 +14,7 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-constexpr std::size_t most_corners = 1000;  // ear clipping takes up to corners^3 steps
+constexpr std::size_t max_corners = 1000;  // ear clipping takes up to corners^3 steps
 
 /// Newell's normal: the mean over all corners, defined for bent polygons too.
 Vec3 normal_of(const std::vector<int>& polygon, const Points& points) {
@@ -44,7 +44,7 @@ class EarCutter {
   }
 
   std::vector<std::array<int, 3>> triangles() {
-    if (left_.size() > most_corners) return fan();
+    if (left_.size() > max_corners) return fan();
     std::vector<std::array<int, 3>> result;
     while (left_.size() > 3) {
       const std::size_t ear = next_ear();

@@ -209,7 +209,7 @@ void leave_out_empty(std::vector<Chart>& charts) {
 }
 
 std::vector<std::size_t> drawn_indices(const std::vector<double>& values) {
-  const std::size_t grain = values.size() <= most_drawn ? 1 : values.size() / (most_drawn / 3) + 1;
+  const std::size_t grain = values.size() <= max_drawn ? 1 : values.size() / (max_drawn / 3) + 1;
   std::vector<std::size_t> places;
   for (std::size_t begin = 0; begin < values.size(); begin += grain) {
     const auto kept = telling_places(values, begin, std::min(values.size(), begin + grain));

@@ -56,10 +56,10 @@ Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames,
 /// Leaves out lines that were never measured, and charts that have nothing to draw.
 void leave_out_empty(std::vector<Chart>& charts);
 
-/// Indices of the values to draw, ascending: all of up to most_drawn; of more, the smallest, the
+/// Indices of the values to draw, ascending: all of up to max_drawn; of more, the smallest, the
 /// largest and a gap, if any, of each of several hundred pieces.
 std::vector<std::size_t> drawn_indices(const std::vector<double>& values);
-inline constexpr std::size_t most_drawn = 1200;
+inline constexpr std::size_t max_drawn = 1200;
 
 /// Whether a value is drawn: not-a-number and values that would overflow the arithmetic of a scale
 /// are gaps.

@@ -12,7 +12,7 @@ namespace {
 // In base64 these are below 8 MB: with the libraries and the charts, a page of 10.
 constexpr std::size_t particle_bytes = 3'800'000, surface_bytes = 1'200'000;
 constexpr std::size_t extra_frames = 8;          // in addition to the planned ones
-constexpr std::size_t most_frames = 120;         // four seconds at 30 per second
+constexpr std::size_t max_frames = 120;          // four seconds at 30 per second
 constexpr std::size_t fewest_particles = 6'000;  // as few as still resemble a body
 
 /// A hash for each particle, for selecting among them (splitmix64).
@@ -44,12 +44,12 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
 
 /// All of the run's frames where they fit, else as many as leave space for the worst ones.
 std::size_t frames_paid(std::size_t run_frames, std::size_t bytes, std::size_t frame_bytes) {
-  const std::size_t paid = std::min(most_frames, bytes / frame_bytes);
+  const std::size_t paid = std::min(max_frames, bytes / frame_bytes);
   if (paid >= run_frames) return run_frames;
   return paid > extra_frames ? paid - extra_frames : 1;
 }
 
-std::size_t most_snapshots(const Playback& playback) {
+std::size_t max_snapshots(const Playback& playback) {
   return std::min(playback.run_frames, playback.wanted.size() + extra_frames);
 }
 
@@ -59,7 +59,7 @@ void plan_particles(Playback& playback, const RestBody& rest, std::size_t bytes)
   playback.wanted =
       evenly(playback.run_frames, frames_paid(playback.run_frames, bytes, each * fewest));
   playback.particles = picked(playback.run_particles,
-                              bytes / (each * std::max<std::size_t>(most_snapshots(playback), 1)));
+                              bytes / (each * std::max<std::size_t>(max_snapshots(playback), 1)));
   for (const auto i : playback.particles) playback.bone.push_back(rest.bone_of[i]);
 }
 
@@ -192,7 +192,7 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double share) {
   plan_particles(playback, rest, bytes_of(particle_bytes));
   playback.balls = {{playback.particles.size(), shown_radius(playback, rest.radius)}};
   ThinSurface skin =
-      thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * most_snapshots(playback)));
+      thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * max_snapshots(playback)));
   playback.points = std::move(skin.points);
   playback.faces = std::move(skin.faces);
   for (const MeasuredBone& bone : rest.bones) {

@@ -12,7 +12,7 @@ namespace sinew {
 namespace {
 
 constexpr std::string_view first_word = "HIERARCHY";
-constexpr std::size_t most_joints = 10'000;
+constexpr std::size_t max_joints = 10'000;
 constexpr std::size_t deepest = 200;
 
 constexpr std::array<std::string_view, 6> channel_names = {"Xposition", "Yposition", "Zposition",
@@ -60,7 +60,7 @@ class Hierarchy {
     const std::size_t position = text_.position();
     if (open_.size() == deepest)
       throw text_.wrong("more than 200 joints nested in each other", "check the braces");
-    if (joints_.size() == most_joints)
+    if (joints_.size() == max_joints)
       throw text_.wrong("more than 10000 joints", "leave out what does not move");
     BvhJoint joint;
     if (!open_.empty()) {
@@ -164,7 +164,7 @@ class Hierarchy {
   std::vector<Open> open_;
 };
 
-constexpr std::uint64_t most_bytes = 256 << 20, enough_for_its_first_word = 4096;
+constexpr std::uint64_t max_bytes = 256 << 20, enough_for_its_first_word = 4096;
 constexpr double shortest_frame = 1e-9, longest_frame = 1e6;  // s
 
 int read_frame_count(BvhText& text, std::size_t channels) {
@@ -290,7 +290,7 @@ Bvh parse_bvh(std::string_view text, const std::string& file) {
 Bvh read_bvh(const std::filesystem::path& path) {
   const std::string head = read_head(path, enough_for_its_first_word);
   if (!same_word(BvhText("", head).next(), first_word)) return parse_bvh(head, path.string());
-  return parse_bvh(read_file(path, most_bytes), path.string());
+  return parse_bvh(read_file(path, max_bytes), path.string());
 }
 
 }  // namespace sinew

@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-constexpr double most_keys = 20e6;  // about 1 GB
+constexpr double max_keys = 20e6;  // about 1 GB
 constexpr double largest_scale = 1e9;
 // In key intervals; a key may be this much after the last frame: files write 1/30 s as 0.033333,
 // and a rate of 30 must not lose the last frame of a thousand.
@@ -146,7 +146,7 @@ class ClipMaker {
     duration_ = (frames_.count - 1) * bvh.frame_time;
     const double keys =
         options.rate > 0 ? std::floor(duration_ * options.rate + slack) + 1 : frames_.count;
-    if (std::max<double>(keys, frames_.count) * static_cast<double>(moving()) > most_keys)
+    if (std::max<double>(keys, frames_.count) * static_cast<double>(moving()) > max_keys)
       throw bad_input("a clip of " + three_digits(keys) + " keys in each of " +
                           std::to_string(moving()) + " joints, more than 2e7 in all",
                       "read fewer frames, by start and end, or choose a lower rate");

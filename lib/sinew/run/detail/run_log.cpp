@@ -162,7 +162,7 @@ void RunLog::describe(const StepPlan& plan, int frames) {
       list.push_back(
           {{"frame", frame}, {"steps", plan.steps_until(frame) - plan.steps_until(frame - 1)}});
   log("shorter steps before " + std::to_string(plan.divided()) +
-      " frames, where bones are fast: down to 1/" + std::to_string(plan.most_parts()));
+      " frames, where bones are fast: down to 1/" + std::to_string(plan.max_parts()));
 }
 
 void RunLog::describe(const StepperChoice& choice) {

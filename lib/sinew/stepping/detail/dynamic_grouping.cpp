@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t steps_between_checks = 32;
 // Looking for what may join takes as long as many steps within groups do.
 constexpr std::int64_t steps_between_merges = 512;
-constexpr double least_gain = 0.05;  // of the particles, in groups
+constexpr double min_gain = 0.05;  // of the particles, in groups
 
 std::size_t count_grouped(const std::vector<std::int32_t>& group) {
   return static_cast<std::size_t>(
@@ -23,7 +23,7 @@ std::size_t count_grouped(const std::vector<std::int32_t>& group) {
 
 /// Of so many particles, in groups.
 std::size_t worthwhile(std::size_t count) {
-  return static_cast<std::size_t>(std::ceil(least_gain * static_cast<double>(count)));
+  return static_cast<std::size_t>(std::ceil(min_gain * static_cast<double>(count)));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace sinew {
 namespace {
 
 // Columns of sorted particles, in diameters; how much lists may grow before sorting is tried again.
-constexpr double column_edge = 1.2, most_growth = 1.3;
+constexpr double column_edge = 1.2, max_growth = 1.3;
 // By the step count alone, so that a resumed run sorts when an uninterrupted one does: the last
 // bits of sums depend on the order. The lists built for the check cost about one step in a hundred.
 constexpr std::int64_t steps_between_order_checks = 1024;
@@ -115,7 +115,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.drift = real(dt / T);
   step.middle = real(dt / T / 2);
   step.drift_first = stepping_.integrator == Integrator::explicit_euler;
-  const double most = layout_.units().velocity(most_radii_per_step * pair.r / dt);
+  const double most = layout_.units().velocity(max_radii_per_step * pair.r / dt);
   step.most = real(most * most);
   step.totals = totals_.data();
   return step;
@@ -273,7 +273,7 @@ void ListStepper<Real>::update_lists() {
   add_moved();
   if (order_check_due()) {
     make_lists();
-    if (lists_.mean_of_outer() > most_growth * mean_when_sorted_) sort();
+    if (lists_.mean_of_outer() > max_growth * mean_when_sorted_) sort();
   } else if (anew || !lists_.made()) {
     make_lists();
   } else if (stepped) {
@@ -478,7 +478,7 @@ void ListStepper<Real>::find_flow(const kernel::Step<Real>& now) {
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
   Failure failure;
-  const double most = most_radii_per_step * body_->material.pair.r *
+  const double most = max_radii_per_step * body_->material.pair.r *
                       (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < layout_.caller().size(); ++k) {

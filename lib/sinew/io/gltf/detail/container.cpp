@@ -150,7 +150,7 @@ std::string read_gltf_file(const fs::path& path) {
   } catch (const Error& error) {
     throw error.with_context({path.string()});
   }
-  return read_file(path, most_gltf_bytes);
+  return read_file(path, max_gltf_bytes);
 }
 
 GltfContainer gltf_container(std::string file, const std::filesystem::path& extension) {
@@ -172,8 +172,8 @@ std::vector<char> gltf_bytes(const std::vector<GltfBuffer>& buffers,
                              const std::optional<std::string>& binary, const fs::path& folder) {
   std::int64_t total = 0;
   for (const GltfBuffer& buffer : buffers)
-    total = std::min(total + buffer.size, most_gltf_bytes + 1);
-  if (total > most_gltf_bytes)
+    total = std::min(total + buffer.size, max_gltf_bytes + 1);
+  if (total > max_gltf_bytes)
     throw bad_input("its buffers say they have more than 2147483647 bytes",
                     "export it in parts or with fewer triangles");
   std::vector<char> bytes;

@@ -10,7 +10,7 @@ namespace sinew {
 namespace {
 
 constexpr double uneven_node = 1e-4;  // of a node's scale; more is not rounding
-constexpr double most_places = 2e7;   // about 10 s
+constexpr double max_places = 2e7;    // about 10 s
 constexpr double motionless = 1e-6;   // rad, and of the skeleton's size
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -97,7 +97,7 @@ std::vector<double> sample_times(const GltfNodeMotion& nodes, double rate) {
   const double first = times.front(), span = times.back() - first;
   const double samples = std::ceil(span * rate);
   if ((samples + static_cast<double>(times.size())) * static_cast<double>(nodes.places.size()) >
-      most_places)
+      max_places)
     throw bad_input("it changes the size of joints, or moves nodes between them, for " +
                         std::to_string(span) + " s: too long to sample",
                     "export it without scale, or in parts");
