@@ -13,8 +13,8 @@
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/groups.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/warnings.h>
 #include <sinew/scene/world.h>
@@ -39,11 +39,11 @@ constexpr std::size_t small_body = 50000, smallest_group = 64;  // particles
 
 /// Particle-steps per second, measured in a trial with bones at rest; a typical value where the
 /// body becomes unstable.
-double speed_at_rest(const Settings& settings, Setup setup, const Particles& particles,
-                     std::vector<std::string>& warnings) {
-  const double usual = usual_speed(stepper_choice(settings.solver));
-  setup.motion = {};
-  Simulation simulation = start(settings, std::move(setup), particles);
+double speed_at_rest(Prepared prepared, std::vector<std::string>& warnings) {
+  const double usual = usual_speed(stepper_choice(prepared.settings.solver));
+  const auto particles = static_cast<double>(prepared.filled.particles.size());
+  prepared.motion = {};
+  Simulation simulation = start(std::move(prepared));
   double spent = 0;
   int steps = 0;
   try {
@@ -56,12 +56,12 @@ double speed_at_rest(const Settings& settings, Setup setup, const Particles& par
     if (error.exit() != Exit::unstable) throw;
     warnings.push_back(std::string("the body leaves its bones at once: ") + error.what());
   }
-  return steps > 0 ? steps * static_cast<double>(particles.size()) / spent : usual;
+  return steps > 0 ? steps * particles / spent : usual;
 }
 
-double speed_in_motion(const Setup& setup, const StepperChoice& choice, double at_rest) {
+double speed_in_motion(const Prepared& prepared, const StepperChoice& choice, double at_rest) {
   const bool lists_are_made_again =
-      choice.search == NeighborSearch::lists && !setup.motion.tracks.empty();
+      choice.search == NeighborSearch::lists && !prepared.motion.tracks.empty();
   return lists_are_made_again ? at_rest / slower_with_lists_in_motion : at_rest;
 }
 
@@ -73,13 +73,14 @@ void warn_of_memory(const Needs& needs, std::vector<std::string>& warnings) {
                        " are free: make body.radius larger, or use solver.precision single");
 }
 
-void add_sizes(const Filling& filling, const Surface& surface, Results& results) {
-  const Particles& particles = filling.particles;
+void add_sizes(const Prepared& prepared, Results& results) {
+  const Particles& particles = prepared.filled.particles;
+  const Triangles& surface = prepared.surface.triangles;
   results.add("particles", particles.size());
   results.add("radius", particles.radius, "m");
-  results.add("surface_points", surface.triangles.points.size());
-  results.add("surface_triangles", surface.triangles.faces.size());
-  results.add("volume", filling.report.volume, "m^3");
+  results.add("surface_points", surface.points.size());
+  results.add("surface_triangles", surface.faces.size());
+  results.add("volume", prepared.report->volume, "m^3");
   results.add("mass", particles.mass * static_cast<double>(particles.size()), "kg");
 }
 
@@ -135,9 +136,9 @@ void add_planes(const Body& body, Results& results) {
   results.add("lack_of_bending_stiffness", 100 * softest.lack, "%");
 }
 
-void add_steps(const Settings& settings, const Setup& setup, double speed, Results& results) {
+void add_steps(const Prepared& prepared, double speed, Results& results) {
   const auto limit_of = [&](Integrator integrator) {
-    return step_limit(integrator, setup.body, load_of(setup.body));
+    return step_limit(integrator, prepared.body, load_of(prepared.body));
   };
   results.add("time_step_limit_symplectic_euler", limit_of(Integrator::symplectic_euler), "s");
   const double explicit_limit = limit_of(Integrator::explicit_euler);
@@ -145,51 +146,51 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
     results.add("time_step_limit_explicit_euler", explicit_limit, "s");
   else
     results.add("time_step_limit_explicit_euler", "none: no step is stable without damping");
-  results.add("time_step", setup.steps.step, "s");
-  results.add("time_step_factor", setup.steps.factor());
-  results.add("steps_per_frame", setup.steps.per_frame);
-  results.add("frames", setup.frames.count + 1);
-  results.add("steps", setup.plan.steps_until(setup.frames.count));
-  if (setup.plan.divided() > 0) {
-    results.add("intervals_of_shorter_steps", setup.plan.divided());
-    results.add("shortest_time_step", setup.steps.step / setup.plan.max_parts(), "s");
+  results.add("time_step", prepared.steps.step, "s");
+  results.add("time_step_factor", prepared.steps.factor());
+  results.add("steps_per_frame", prepared.steps.per_frame);
+  results.add("frames", prepared.frames.count + 1);
+  results.add("steps", prepared.plan.steps_until(prepared.frames.count));
+  if (prepared.plan.divided() > 0) {
+    results.add("intervals_of_shorter_steps", prepared.plan.divided());
+    results.add("shortest_time_step", prepared.steps.step / prepared.plan.max_parts(), "s");
   }
-  results.add("duration", settings.solver.duration, "s");
+  results.add("duration", prepared.settings.solver.duration, "s");
   results.add("bone_speed", speed, "radii per step");
 }
 
-/// Of equilibria: nobody knows before how many iterations one takes.
-void add_load_steps(const Settings& settings, const LoadSteps& steps, double rate,
-                    std::size_t particles, Results& results) {
+/// Results of equilibria: nobody knows before how many iterations one takes.
+void add_load_steps(const Prepared& prepared, double rate, Results& results) {
+  const LoadSteps& steps = *prepared.load_steps;
+  const auto particles = static_cast<double>(prepared.filled.particles.size());
   results.add("method", "static");
   results.add("frames", steps.count);
-  results.add("duration", settings.solver.duration, "s");
+  results.add("duration", prepared.settings.solver.duration, "s");
   results.add("residual", steps.residual);
   results.add("max_iterations_per_frame", steps.max_iterations);
-  results.add("time_of_1000_iterations", 1000 * static_cast<double>(particles) / rate, "s");
+  results.add("time_of_1000_iterations", 1000 * particles / rate, "s");
 }
 
 /// What groups that stay bring a body at rest: trials with them and without.
-void add_groups(const Settings& settings, const Setup& setup, const Particles& particles,
-                Results& results, std::vector<std::string>& warnings) {
-  const auto sizes = group_sizes(settings, setup.body);
+void add_groups(const Prepared& prepared, Results& results, std::vector<std::string>& warnings) {
+  const auto sizes = group_sizes(prepared.settings, prepared.body);
   if (!sizes) return;
   const auto best_speed = [&](const std::shared_ptr<const Grouping>& grouping) {
-    Setup tried = setup;
+    Prepared tried = prepared;
     tried.body.grouping = grouping, tried.dynamic_groups.reset();
     double best = 0;
-    const int trials = particles.size() < small_body ? trials_of_small_bodies : 1;
+    const int trials = tried.body.rest.size() < small_body ? trials_of_small_bodies : 1;
     for (int trial = 0; trial < trials; ++trial)
-      best = std::max(best, speed_at_rest(settings, tried, particles, warnings));
+      best = std::max(best, speed_at_rest(tried, warnings));
     return best;
   };
   const auto grouping_of = [&](const GroupSizes& wanted) {
-    return groups_that_stay(settings, setup.body, setup.motion, wanted);
+    return groups_that_stay(prepared.settings, prepared.body, prepared.motion, wanted);
   };
   std::shared_ptr<const Grouping> grouping = grouping_of(*sizes);
   results.add("groups", grouping->size());
   const auto percent = [&](std::size_t count) {
-    return 100 * static_cast<double>(count) / static_cast<double>(particles.size());
+    return 100 * static_cast<double>(count) / static_cast<double>(prepared.body.rest.size());
   };
   results.add("grouped", percent(grouping->grouped()), "%");
   results.add("within_groups", percent(grouping->inside()), "%");
@@ -212,12 +213,12 @@ void add_stepper(const StepperChoice& choice, Results& results) {
 
 #if SINEW_DRAWS
 void prepare_to_draw() { ensure_display(); }
-void draw(const Setup& setup, const Triangles& skin, const std::string& picture) {
-  write_scene_picture(scene_snapshot(setup, skin), {}, {}, picture);
+void draw(const Prepared& prepared, const std::string& picture) {
+  write_scene_picture(scene_snapshot(prepared), {}, {}, picture);
 }
 #else
 void prepare_to_draw() { throw draws_nothing(); }
-void draw(const Setup&, const Triangles&, const std::string&) {}
+void draw(const Prepared&, const std::string&) {}
 #endif
 
 Exit check(const std::string& scene, const std::string& picture, const Common& common) {
@@ -226,45 +227,38 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
     refuse_output(picture, {scene}, ".png");
     prepare_to_draw();
   }
-  const Settings settings = with_fit(read_scene(scene, common.overrides));
-  const Surface surface = read_mesh(settings);
-  SceneFiles files = read_files(settings);
-  files.surface = surface.triangles;
-  const Filling filling = fill_body(settings, surface);
-  const Setup setup = set_up(settings, files, filling.particles,
-                             {filling.share, filling.stiffness, filling.component});
-  const Triangles& skin = surface.triangles;
-  const Needs needs = needs_of(settings, setup, skin.points.size(), skin.faces.size());
-  const StepperChoice choice = stepper_choice(settings.solver);
-  const double speed = farthest_carried(setup);
-  auto warnings = warnings_of(setup, surface, speed);
-  warn_of_stiffness(setup.body, warnings);
+  const Prepared prepared = prepare({read_scene(scene, common.overrides)});
+  const Needs needs = needs_of(prepared);
+  const StepperChoice choice = stepper_choice(prepared.settings.solver);
+  const double speed = farthest_carried(prepared);
+  auto warnings = warnings_of(prepared, speed);
+  warn_of_stiffness(prepared.body, warnings);
   warn_of_memory(needs, warnings);
-  warnings.insert(warnings.end(), filling.report.warnings.begin(), filling.report.warnings.end());
-  const double at_rest = speed_at_rest(settings, setup, filling.particles, warnings);
-  const double rate = speed_in_motion(setup, choice, at_rest);
-  const double work = static_cast<double>(setup.plan.steps_until(setup.frames.count)) *
-                      static_cast<double>(filling.particles.size());
+  for (const std::string& warning : prepared.report->warnings) warnings.push_back(warning);
+  const double at_rest = speed_at_rest(prepared, warnings);
+  const double rate = speed_in_motion(prepared, choice, at_rest);
+  const double work = static_cast<double>(prepared.plan.steps_until(prepared.frames.count)) *
+                      static_cast<double>(prepared.filled.particles.size());
 
   Results results;
-  add_sizes(filling, surface, results);
-  add_material(setup.body.material, results);
-  add_modes(setup.body, results);
-  add_planes(setup.body, results);
-  if (setup.load_steps)
-    add_load_steps(settings, *setup.load_steps, rate, filling.particles.size(), results);
+  add_sizes(prepared, results);
+  add_material(prepared.body.material, results);
+  add_modes(prepared.body, results);
+  add_planes(prepared.body, results);
+  if (prepared.load_steps)
+    add_load_steps(prepared, rate, results);
   else
-    add_steps(settings, setup, speed, results);
-  add_groups(settings, setup, filling.particles, results, warnings);
+    add_steps(prepared, speed, results);
+  add_groups(prepared, results, warnings);
   add_stepper(choice, results);
   const std::uint64_t free = free_space(run_folder(scene, "").path);
   for (const auto& [key, bytes] :
        {std::pair("disk", needs.disk), {"disk_free", free}, {"memory", needs.memory}})
     results.add(key, bytes_text(static_cast<double>(bytes)));
   results.add("particle_steps_per_second", rate);
-  if (!setup.load_steps) results.add("stepping_time", work / rate, "s");
+  if (!prepared.load_steps) results.add("stepping_time", work / rate, "s");
   if (!picture.empty()) {
-    draw(setup, skin, picture);
+    draw(prepared, picture);
     results.add("picture", picture);
   }
   results.add("warnings", warnings.size());

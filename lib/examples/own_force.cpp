@@ -8,21 +8,21 @@ int main(int argc, char** argv) {
   if (argc != 2) return std::fprintf(stderr, "usage: own_force SCENE.yaml\n"), 2;
   try {
     const sinew::Settings scene = sinew::read_scene(argv[1]);
-    sinew::ReadyScene ready = sinew::prepare(scene);
+    sinew::Prepared prepared = sinew::prepare({scene});
 
     sinew::World world;
     const auto wind = [](const sinew::Vec3& x, const sinew::Grain& grain) {
       return sinew::Vec3(2 * x.z() * grain.mass, 0, 0);  // N, for 2 m/s^2 per meter of height
     };
     world.fields.push_back({"wind", sinew::CustomForce{wind}, {}, {}});
-    ready.setup.body.world = std::make_shared<const sinew::World>(world);
+    prepared.body.world = std::make_shared<const sinew::World>(world);
 
-    sinew::Simulation simulation = sinew::start(scene, ready);
+    sinew::Simulation simulation = sinew::start(prepared);
     while (simulation.time() < 0.1) simulation.step();
     sinew::Vec3 mean = sinew::Vec3::Zero();
-    for (std::size_t i = 0; i < ready.setup.body.rest.size(); ++i)
-      mean += simulation.particles().position(i) - ready.body.particles.position(i);
-    mean /= static_cast<double>(ready.setup.body.rest.size());
+    for (std::size_t i = 0; i < prepared.body.rest.size(); ++i)
+      mean += simulation.particles().position(i) - prepared.filled.particles.position(i);
+    mean /= static_cast<double>(prepared.body.rest.size());
     std::printf("mean displacement %.3g m along x\n", mean.x());
   } catch (const sinew::Error& error) {
     return std::fprintf(stderr, "%s\n", error.what()), static_cast<int>(error.exit());

@@ -12,9 +12,17 @@ struct FilledBody {
   Points points;                                   ///< at rest, m
   double radius = 0, mass = 0;                     ///< of each particle, m and kg
   std::vector<std::int32_t> component, neighbors;  ///< as in Filling; empty: made in Python
-  LocalMaterial local = {};
+  std::vector<double> share = {}, stiffness = {};  ///< as in Filling
 
-  Particles particles() const { return particles_at(points, radius, mass); }
+  /// The same for prepare().
+  BodyFile file() const {
+    BodyFile file;
+    file.particles = particles_at(points, radius, mass);
+    file.component = component;
+    if (!share.empty()) file.share = share;
+    if (!stiffness.empty()) file.stiffness = stiffness;
+    return file;
+  }
 };
 
 }  // namespace sinew::python

@@ -27,7 +27,8 @@ FilledBody body_of_filling(Filling filling) {
   body.mass = filling.particles.mass;
   body.component = std::move(filling.component);
   body.neighbors = std::move(filling.neighbors);
-  body.local = {std::move(filling.share), std::move(filling.stiffness)};
+  body.share = std::move(filling.share);
+  body.stiffness = std::move(filling.stiffness);
   return body;
 }
 

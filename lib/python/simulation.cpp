@@ -21,10 +21,7 @@ class Stepped {
  public:
   Stepped(const Settings& scene, const std::shared_ptr<FilledBody>& body, bool own_forces) {
     const WithoutGil free;
-    if (!body)
-      begin(scene, prepare(scene), own_forces);
-    else
-      begin(scene, *body, own_forces);
+    begin(body ? prepare({scene, body->file(), false}) : prepare({scene}), own_forces);
   }
 
   /// Asks between steps whether Ctrl-C was pressed.
@@ -139,33 +136,23 @@ class Stepped {
     if (stepping_) refuse();
   }
 
-  void begin(const Settings& scene, ReadyScene ready, bool own_forces) {
-    faces_ = ready.surface.triangles.faces;
-    skin_ =
-        make_skin(ready.surface.triangles.points, ready.setup.body.rest,
-                  ready.body.particles.radius, ready.setup.body.skeleton, ready.setup.body.binding);
-    begin(scene, std::move(ready.setup), std::move(ready.body.particles), own_forces);
-  }
-
-  void begin(const Settings& given, const FilledBody& body, bool own_forces) {
-    const Settings scene = with_fit(given);
-    Particles particles = body.particles();
-    Setup setup = set_up(scene, read_files(scene), particles, body.local);
-    begin(scene, std::move(setup), std::move(particles), own_forces);
-  }
-
-  void begin(const Settings& scene, Setup setup, Particles particles, bool own_forces) {
+  void begin(Prepared prepared, bool own_forces) {
+    const Body& body = prepared.body;
+    faces_ = prepared.surface.triangles.faces;
+    if (!faces_.empty())
+      skin_ = make_skin(prepared.surface.triangles.points, body.rest,
+                        prepared.filled.particles.radius, body.skeleton, body.binding);
     if (own_forces) {
-      World world = setup.body.world ? *setup.body.world : World();
-      pushes_ = std::make_shared<Points>(particles.size(), Vec3::Zero());
+      World world = body.world ? *body.world : World();
+      pushes_ = std::make_shared<Points>(body.rest.size(), Vec3::Zero());
       const auto push = [pushes = pushes_](const Vec3&, const Grain& grain) {
         return (*pushes)[grain.id];
       };
       world.fields.push_back({"own", CustomForce{push}, {}, {}});
-      setup.body.world = std::make_shared<const World>(std::move(world));
+      prepared.body.world = std::make_shared<const World>(std::move(world));
     }
-    motion_ = setup.motion;
-    simulation_.emplace(start(scene, std::move(setup), std::move(particles)));
+    motion_ = prepared.motion;
+    simulation_.emplace(start(std::move(prepared)));
     read();
   }
 

@@ -30,7 +30,7 @@
 #include <sinew/run/measure_run.h>
 #include <sinew/run/simulate.h>
 #include <sinew/scene/check.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/settings/read_scene.h>
 #include <sinew/settings/write_scene.h>
 #include <sinew/stepping/simulation.h>

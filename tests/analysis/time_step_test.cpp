@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 
 #include "support/expect_error.h"
 #include "support/world.h"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <sinew/body/step_plan.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 
 #include "support/all_steppers.h"
 
@@ -127,7 +127,7 @@ TEST(Divided, CountsTheListsOfStepsOfAllSizes) {
 }
 
 /// A bar whose upper bone rests, swings by 60 degrees in a tenth of a second, and rests.
-Setup swinging(std::optional<double> time_step, double interval = 0.05) {
+Prepared swinging(std::optional<double> time_step, double interval = 0.05) {
   Settings settings = test::box_scene(25);
   settings.tracks = {test::track(
       "upper", {test::bend_key(0, 0), test::bend_key(0.5, 0), test::bend_key(0.6, 60)})};
@@ -136,21 +136,21 @@ Setup swinging(std::optional<double> time_step, double interval = 0.05) {
   settings.solver.time_step = time_step;
   settings.output.interval = interval;
   const Points rest = test::fcc_box(7, 7, 25, r);
-  return set_up(settings, {}, test::particles_of(settings, rest));
+  return test::prepared(settings, rest);
 }
 
 TEST(PlanOfAScene, DividesStepsWhereBonesAreFastAndForAWhileAfter) {
-  const auto setup = swinging({});
-  const std::vector<double> speeds = setup.bone_speeds;
+  const auto prepared = swinging({});
+  const std::vector<double> speeds = prepared.bone_speeds;
   ASSERT_EQ(speeds.size(), 60u);
   EXPECT_EQ(speeds[5], 0);
-  const double tail = setup.body.skeleton.bones[1].length;
+  const double tail = prepared.body.skeleton.bones[1].length;
   EXPECT_GE(speeds[10], tail * radians(60) / 0.1);
-  EXPECT_EQ(setup.plan.parts(8), 1);
-  EXPECT_GT(setup.plan.parts(10), 1);
-  EXPECT_GT(setup.plan.parts(12), 1) << "the flesh still swings";
-  EXPECT_EQ(setup.plan.parts(59), 1);
-  EXPECT_LE(farthest_carried(setup), max_carried * (1 + 1e-12));
+  EXPECT_EQ(prepared.plan.parts(8), 1);
+  EXPECT_GT(prepared.plan.parts(10), 1);
+  EXPECT_GT(prepared.plan.parts(12), 1) << "the flesh still swings";
+  EXPECT_EQ(prepared.plan.parts(59), 1);
+  EXPECT_LE(farthest_carried(prepared), max_carried * (1 + 1e-12));
 }
 
 TEST(FrameTimes, EndWithTheDuration) {
@@ -173,20 +173,20 @@ TEST(FrameTimes, EndWithTheDuration) {
 
 TEST(PlanOfAScene, EndsWithTheDuration) {
   for (const std::optional<double> step : {std::optional<double>(), std::optional<double>(1e-3)}) {
-    const auto setup = swinging(step, 0.07);
-    EXPECT_EQ(setup.frames.count, 43);
-    const std::int64_t end = setup.plan.steps_until(43), begin = setup.plan.steps_until(42);
-    EXPECT_NEAR(setup.plan.time(begin), 42 * 0.07, 1e-12);
-    EXPECT_NEAR(setup.plan.time(end), 3, 1e-12);
-    EXPECT_LE(setup.plan.step(begin), setup.steps.step * (1 + 1e-12));
-    EXPECT_GE(setup.plan.step(begin) * setup.plan.parts(42), setup.steps.step / 2);
+    const auto prepared = swinging(step, 0.07);
+    EXPECT_EQ(prepared.frames.count, 43);
+    const std::int64_t end = prepared.plan.steps_until(43), begin = prepared.plan.steps_until(42);
+    EXPECT_NEAR(prepared.plan.time(begin), 42 * 0.07, 1e-12);
+    EXPECT_NEAR(prepared.plan.time(end), 3, 1e-12);
+    EXPECT_LE(prepared.plan.step(begin), prepared.steps.step * (1 + 1e-12));
+    EXPECT_GE(prepared.plan.step(begin) * prepared.plan.parts(42), prepared.steps.step / 2);
   }
 }
 
 TEST(PlanOfAScene, LeavesAStepThatIsGivenAsItIs) {
-  const auto setup = swinging(1e-3);
-  EXPECT_TRUE(setup.plan.is_even());
-  EXPECT_GT(farthest_carried(setup), max_carried);
+  const auto prepared = swinging(1e-3);
+  EXPECT_TRUE(prepared.plan.is_even());
+  EXPECT_GT(farthest_carried(prepared), max_carried);
 }
 
 }  // namespace sinew::step_plan_test

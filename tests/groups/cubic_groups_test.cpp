@@ -5,7 +5,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/groups/cubic/cubic_fits.h>
 #include <sinew/groups/cubic/polynomials.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 
 #include "support/expect_error.h"
 #include "support/grouped_bar.h"

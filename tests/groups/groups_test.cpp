@@ -270,10 +270,9 @@ TEST(Groups, AStretchAtWhichNeighborsPartEndsTheRun) {
 
 // Those of a scene.
 
-sinew::Setup set_up(Settings settings, int width = 25, int height = 81) {
+Prepared grouped(Settings settings) {
   settings.hierarchy.enabled = true;
-  const Particles particles = test::particles_of(settings, test::fcc_box(width, width, height, r));
-  return sinew::set_up(settings, read_files(settings), particles);
+  return test::prepared(settings, test::fcc_box(25, 25, 81, r));
 }
 
 Settings bending_scene() {
@@ -283,26 +282,26 @@ Settings bending_scene() {
 }
 
 TEST(StaticGroups, AreFreeNearAJointThatMoves) {
-  const sinew::Setup setup = set_up(bending_scene());
-  const Grouping& grouping = *setup.body.grouping;
+  const Prepared prepared = grouped(bending_scene());
+  const Grouping& grouping = *prepared.body.grouping;
   ASSERT_EQ(grouping.size(), 2U);
-  const double joint = setup.body.skeleton.bones[1].head().z();
-  const double free = std::sqrt(setup.body.binding.cross_section[1]);
-  for (std::size_t i = 0; i < setup.body.rest.size(); ++i)
-    EXPECT_EQ(grouping.group[i] < 0, std::abs(setup.body.rest[i].z() - joint) < free) << i;
+  const double joint = prepared.body.skeleton.bones[1].head().z();
+  const double free = std::sqrt(prepared.body.binding.cross_section[1]);
+  for (std::size_t i = 0; i < prepared.body.rest.size(); ++i)
+    EXPECT_EQ(grouping.group[i] < 0, std::abs(prepared.body.rest[i].z() - joint) < free) << i;
 }
 
 TEST(StaticGroups, AreOneWhereNoJointMoves) {
-  const sinew::Setup setup = set_up(test::box_scene(81));
-  EXPECT_EQ(setup.body.grouping->size(), 1U);
-  EXPECT_EQ(setup.body.grouping->grouped(), setup.body.rest.size());
+  const Prepared prepared = grouped(test::box_scene(81));
+  EXPECT_EQ(prepared.body.grouping->size(), 1U);
+  EXPECT_EQ(prepared.body.grouping->grouped(), prepared.body.rest.size());
 }
 
 TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
   const auto expect = [](const std::string& message, const auto& change) {
     Settings settings = bending_scene();
     change(settings);
-    test::expect_bad_input([&] { set_up(settings); }, {message});
+    test::expect_bad_input([&] { grouped(settings); }, {message});
   };
   expect("only in fcc", [](Settings& s) { s.body.packing = Packing::hcp; });
   expect("free particles", [](Settings& s) { s.solver.method = Method::static_equilibrium; });
@@ -329,10 +328,9 @@ TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
 
 TEST(StaticGroups, RefuseAnotherMotion) {
   const Settings settings = bending_scene();
-  sinew::Setup setup = set_up(settings);
-  const Motion motion = setup.motion;
-  const Particles particles = test::particles_of(settings, setup.body.rest);
-  Simulation simulation = start(settings, std::move(setup), particles);
+  Prepared prepared = grouped(settings);
+  const Motion motion = prepared.motion;
+  Simulation simulation = start(std::move(prepared));
   const auto play = [&] { simulation.play(motion); };
   test::expect_bad_input(play, {"groups of particles", "; set hierarchy.enabled to false"});
 }

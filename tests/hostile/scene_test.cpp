@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every kind of mistake in a scene ends with exit code 2 and one line that names file, line, column
 // and cure; never with a crash.
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/settings/read_scene.h>
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(HostileScenes, FilesAreReadBeforeTheBodyIsFilled) {
                "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   const auto message_with = [&](const std::string& more) {
     const Settings settings = read_scene(folder.write("scene.yaml", small_scene + more));
-    return std::string(error_of([&] { prepare(settings); }).what());
+    return std::string(error_of([&] { prepare({settings}); }).what());
   };
   EXPECT_EQ(message_with("").find("none."), std::string::npos) << message_with("");
   for (const char* more : {"motion:\n  file: none.bvh\n",

@@ -11,7 +11,7 @@
 #include <sinew/body/solid.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 #include "mesh/shapes.h"
 
 namespace sinew::packing_isotropy_test {

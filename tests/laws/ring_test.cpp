@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <sinew/analysis/elastic_modes.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 
 #include "support/world.h"
 

@@ -2,8 +2,8 @@
 // Bodies with bonds recover where the paper's body flows.
 #include <gtest/gtest.h>
 
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 
 #include "support/world.h"
 

@@ -5,8 +5,8 @@
 
 #include <numeric>
 
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 
 #include "support/all_steppers.h"
 

@@ -46,8 +46,8 @@ std::vector<std::string> warnings_of(const Scene& scene) {
   const auto path =
       folder.write("scene.yaml", "body: {mesh: bar.obj, " + scene.body + "}\nskeleton: {bones: [" +
                                      scene.bones + "]}\n" + scene.keys);
-  const ReadyScene ready = prepare(read_scene(path));
-  return sinew::warnings_of(ready.setup, ready.surface, 0);
+  const Prepared prepared = prepare({read_scene(path)});
+  return sinew::warnings_of(prepared, 0);
 }
 
 std::vector<std::string> warnings_with(const std::vector<double>& heights,

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 
 #include "support/all_steppers.h"
 #include "support/expect_error.h"

@@ -6,8 +6,8 @@
 #include <sinew/analysis/elastic_modes.h>
 #include <sinew/analysis/rest_stability.h>
 #include <sinew/analysis/time_step.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/stepping/simulation.h>
 #include <sinew/world/world.h>
 

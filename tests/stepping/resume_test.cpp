@@ -3,8 +3,8 @@
 // wherever it stops and on any number of threads, while particles are sorted and units chosen
 // again.
 #include <sinew/core/parallel.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/world/world.h>
 
 #include "support/all_steppers.h"

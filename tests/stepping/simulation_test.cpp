@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include <sinew/core/parallel.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 
 #include "support/expect_error.h"
 #include "support/world.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 
 #include "support/world.h"
 

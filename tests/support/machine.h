@@ -5,8 +5,8 @@
 #include <functional>
 #include <memory>
 
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/scene/world.h>
 #include <sinew/world/world.h>
 

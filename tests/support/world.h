@@ -8,8 +8,8 @@
 #include <sinew/analysis/time_step.h>
 #include <sinew/core/deformation.h>
 #include <sinew/core/particles.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/settings/settings.h>
 #include <sinew/stepping/simulation.h>
 
@@ -128,10 +128,16 @@ inline Body make_body(const Settings& settings, const Points& rest) {
   return make_body(settings, {}, skeleton_of(settings), particles_of(settings, rest));
 }
 
+/// The scene with particles at `rest` in place of a mesh.
+inline Prepared prepared(const Settings& settings, const Points& rest) {
+  BodyFile filled;
+  filled.particles = particles_of(settings, rest);
+  return prepare({settings, std::move(filled), false});
+}
+
 /// A simulation of particles at `rest`, with the step that the settings choose.
 inline Simulation make_simulation(const Settings& settings, const Points& rest) {
-  const Particles particles = particles_of(settings, rest);
-  return start(settings, set_up(settings, read_files(settings), particles), particles);
+  return start(prepared(settings, rest));
 }
 
 /// The scene without bone forces: the body is free.

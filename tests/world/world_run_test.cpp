@@ -2,8 +2,8 @@
 // Whole bodies among obstacles, pins, fields and muscles.
 #include <gtest/gtest.h>
 
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/stepping/simulation.h>
 #include <sinew/world/world.h>
 

@@ -6,6 +6,7 @@
 
 #include <sinew/core/text.h>
 #include <sinew/rig/motion.h>
+#include <sinew/run/world_shown.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/world.h>
 
@@ -13,7 +14,7 @@ namespace sinew {
 namespace {
 
 /// What a picture shows of a scene.
-struct Scene {
+struct DrawnScene {
   const Skeleton& skeleton;
   const Points& rest;  ///< of the particles, by id
   double radius;
@@ -22,7 +23,7 @@ struct Scene {
   Triangles obstacles;
 };
 
-bool is_held(const Scene& scene, std::size_t particle) {
+bool is_held(const DrawnScene& scene, std::size_t particle) {
   if (!scene.world) return false;
   const auto& pins = scene.world->pins;
   return std::any_of(pins.begin(), pins.end(),
@@ -30,7 +31,7 @@ bool is_held(const Scene& scene, std::size_t particle) {
 }
 
 /// The particle farthest from all bones, which do not hide it.
-std::size_t visible_particle(const Scene& scene) {
+std::size_t visible_particle(const DrawnScene& scene) {
   std::size_t best = 0;
   double farthest = -1;
   for (std::size_t i = 0; i < scene.rest.size(); ++i) {
@@ -47,7 +48,7 @@ std::vector<std::uint32_t> loaded_part(const Load& load, const Points& rest) {
   return 2 * load.particles.size() > rest.size() ? std::vector<std::uint32_t>() : load.particles;
 }
 
-void add_particles(const Scene& scene, Snapshot& snapshot) {
+void add_particles(const DrawnScene& scene, Snapshot& snapshot) {
   snapshot.radius = scene.radius;
   if (scene.rest.empty()) return;
   const auto add = [&](std::size_t i, Mark mark) {
@@ -63,7 +64,7 @@ void add_particles(const Scene& scene, Snapshot& snapshot) {
   add(visible_particle(scene), Mark::sample);
 }
 
-Snapshot snapshot_of(Scene scene) {
+Snapshot snapshot_of(DrawnScene scene) {
   Snapshot snapshot;
   snapshot.caption = std::to_string(scene.rest.size()) + " particles, " +
                      std::to_string(scene.skeleton.size()) + " bones";
@@ -80,17 +81,17 @@ Snapshot snapshot_of(Scene scene) {
   return snapshot;
 }
 
-Triangles obstacles_at_start(const Setup& setup) {
+Triangles obstacles_at_start(const Prepared& prepared) {
   Triangles all;
-  if (!setup.body.world) return all;
-  const Pose pose = pose_at(setup.body.skeleton, setup.motion, 0);
-  const WorldNow now = world_at(*setup.body.world, 0, pose);
-  for (std::size_t k = 0; k < setup.obstacles.size(); ++k) {
+  if (!prepared.body.world) return all;
+  const Pose pose = pose_at(prepared.body.skeleton, prepared.motion, 0);
+  const WorldNow now = world_at(*prepared.body.world, 0, pose);
+  for (std::size_t k = 0; k < prepared.obstacles.size(); ++k) {
     const RigidFrame& frame = now.obstacles[k].frame;
     const int first = static_cast<int>(all.points.size());
-    for (const Vec3& point : setup.obstacles[k].points)
+    for (const Vec3& point : prepared.obstacles[k].points)
       all.points.push_back(frame.origin + frame.rotation * point);
-    for (const auto& [a, b, c] : setup.obstacles[k].faces)
+    for (const auto& [a, b, c] : prepared.obstacles[k].faces)
       all.faces.push_back({first + a, first + b, first + c});
   }
   return all;
@@ -98,10 +99,10 @@ Triangles obstacles_at_start(const Setup& setup) {
 
 }  // namespace
 
-Snapshot scene_snapshot(const Setup& setup, const Triangles& surface) {
-  const Body& body = setup.body;
-  return snapshot_of({body.skeleton, body.rest, body.material.pair.r, body.world.get(), surface,
-                      obstacles_at_start(setup)});
+Snapshot scene_snapshot(const Prepared& prepared) {
+  const Body& body = prepared.body;
+  return snapshot_of({body.skeleton, body.rest, body.material.pair.r, body.world.get(),
+                      prepared.surface.triangles, obstacles_at_start(prepared)});
 }
 
 Snapshot scene_snapshot(const RunFiles& run) {

@@ -2,7 +2,7 @@
 // A picture of a scene before it is run: the bones in the translucent mesh, the size of a particle,
 // obstacles, held particles and muscles, with axes in meters.
 //
-//     write_scene_picture(scene_snapshot(setup, surface.triangles), {}, "scene.png");
+//     write_scene_picture(scene_snapshot(prepared), {}, "scene.png");
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 #include <sinew/render/elevations.h>
 #include <sinew/render/figure.h>
 #include <sinew/run/run_files.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 
 namespace sinew {
 
 /// The scene at rest, its obstacles where they are at the start.
-Snapshot scene_snapshot(const Setup& setup, const Triangles& surface);
+Snapshot scene_snapshot(const Prepared& prepared);
 
 /// The same from the files of its run.
 Snapshot scene_snapshot(const RunFiles& run);

@@ -218,9 +218,9 @@ FrameState FrameWriter::measured_at_rest() const {
 }
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
-                         const ReadyScene& ready)
-    : FrameWriter(folder, output, ready.setup.body, ready.surface.triangles, ready.setup.obstacles,
-                  {}, ready.look, ready.setup.probes) {}
+                         const Prepared& prepared)
+    : FrameWriter(folder, output, prepared.body, prepared.surface.triangles, prepared.obstacles, {},
+                  prepared.look, prepared.probes) {}
 
 void FrameWriter::add(Simulation& simulation, double time, bool begun) {
   writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does

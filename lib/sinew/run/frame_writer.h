@@ -31,7 +31,7 @@
 #include <sinew/rig/skinning.h>
 #include <sinew/run/probe_table.h>
 #include <sinew/run/support_table.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/settings/settings.h>
 #include <sinew/stepping/simulation.h>
 #include <sinew/world/world.h>
@@ -54,7 +54,7 @@ class FrameWriter {
               std::vector<Probe> probes = {}, StrainInFrames strain = StrainInFrames::by_default);
   /// The same of a scene that begins.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
-              const ReadyScene& ready);
+              const Prepared& prepared);
 
   /// Takes the frame at `time` (s) from the simulation; waits until the frame before is written.
   /// `begun`: others have written its particles, see Series::finish(). Throws not

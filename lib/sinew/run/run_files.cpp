@@ -15,8 +15,8 @@
 #include <sinew/material/laws.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/frame_content.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/scene/world.h>
 #include <sinew/settings/read_scene.h>
 

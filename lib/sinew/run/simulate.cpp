@@ -18,8 +18,8 @@
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/setup.h>
 #include <sinew/scene/warnings.h>
 #include <sinew/settings/write_scene.h>
 
@@ -98,12 +98,12 @@ class Run {
       : scene_(scene), folder_(folder), options_(options), log_(log), checkpoints_(checkpoints) {}
 
   /// Steps to the end, from `state` on where there is one.
-  Exit to_end(ReadyScene ready, const std::optional<SimulationState>& state) {
+  Exit to_end(Prepared prepared, const std::optional<SimulationState>& state) {
     try {
       Stopwatch watch;
-      if (!state) write_beginning(ready);
+      if (!state) write_beginning(prepared);
       log_.spend("writing", watch.lap());
-      begin(std::move(ready), state);
+      begin(std::move(prepared), state);
       log_.spend("listing", watch.lap());
       const Exit exit = write_frames();
       log_.end(exit == Exit::done ? "finished" : "stopped", *simulation_);
@@ -118,28 +118,29 @@ class Run {
   }
 
  private:
-  void write_beginning(const ReadyScene& ready) {
-    write_body(folder_.body(), ready.body, scene_.output.encoding);
+  void write_beginning(const Prepared& prepared) {
+    write_body(folder_.body(), prepared.filled, scene_.output.encoding);
     write_file(folder_.scene(), resolved_scene(scene_, folder_.path));
     write_view_script(folder_.path);
   }
 
-  void begin(ReadyScene ready, const std::optional<SimulationState>& state) {
-    schedule_ = {ready.setup.frames, ready.setup.plan, ready.setup.load_steps.has_value()};
-    const StepChoice steps = ready.setup.steps;
-    const Motion motion = ready.setup.motion;
-    std::vector<Triangles> obstacles = std::move(ready.setup.obstacles);
-    std::vector<Probe> probes = std::move(ready.setup.probes);
-    simulation_.emplace(start(scene_, std::move(ready.setup), std::move(ready.body.particles)));
-    ready.body = {};  // millions of numbers that nobody needs any more
+  void begin(Prepared prepared, const std::optional<SimulationState>& state) {
+    schedule_ = {prepared.frames, prepared.plan, prepared.load_steps.has_value()};
+    const StepChoice steps = prepared.steps;
+    const Motion motion = prepared.motion;
+    std::vector<Triangles> obstacles = std::move(prepared.obstacles);
+    std::vector<Probe> probes = std::move(prepared.probes);
+    const Triangles surface = std::move(prepared.surface.triangles);
+    SurfaceLook look = std::move(prepared.look);
+    simulation_.emplace(start(std::move(prepared)));
+    prepared = Prepared();  // millions of numbers that nobody needs any more
     if (state) {
       simulation_->restore(*state);
       schedule_.there = schedule_.frames_until(*state);
       log_.frames(schedule_.there);
     }
-    writer_.emplace(folder_.path, scene_.output, simulation_->body(), ready.surface.triangles,
-                    std::move(obstacles), schedule_.times_there(), std::move(ready.look),
-                    std::move(probes),
+    writer_.emplace(folder_.path, scene_.output, simulation_->body(), surface, std::move(obstacles),
+                    schedule_.times_there(), std::move(look), std::move(probes),
                     ranks_write() ? StrainInFrames::on_request : StrainInFrames::by_default);
     if (options_.engine)
       elsewhere_.emplace(*options_.engine, folder_.engine(), *simulation_, motion,
@@ -320,17 +321,15 @@ class Run {
   std::optional<FrameWriter> writer_;
 };
 
-ReadyScene prepare_in(const Settings& scene, const RunFolder& folder) {
+Prepared prepare_in(const Settings& scene, const RunFolder& folder) {
   const std::string origin = origin_of(scene);
   auto there = body_of_scene(folder.body(), origin);
   if (!there && !folder.used() && std::filesystem::exists(folder.body()))
     throw bad_input(Place{folder.body().string()}, "is there, and not the body of this scene",
                     "choose another folder with -o, or move the file away");
-  ReadyScene ready = prepare(scene, std::move(there));
-  const Triangles& skin = ready.surface.triangles;
-  check_space(folder.path, needs_of(scene, ready.setup, skin.points.size(), skin.faces.size()),
-              size_of_old_run(folder));
-  return ready;
+  Prepared prepared = prepare({scene, std::move(there)});
+  check_space(folder.path, needs_of(prepared), size_of_old_run(folder));
+  return prepared;
 }
 
 /// The state to continue with, when that is asked for and there is one.
@@ -347,20 +346,18 @@ std::optional<SimulationState> state_to_resume(const RunFolder& folder,
   return state;
 }
 
-void say_what_is_doubtful(const ReadyScene& ready, const SimulateOptions& options) {
-  const Setup& setup = ready.setup;
-  if (const auto& relaxed = setup.load_steps)
+void say_what_is_doubtful(const Prepared& prepared, const SimulateOptions& options) {
+  if (const auto& relaxed = prepared.load_steps)
     say(options, "equilibria at " + std::to_string(relaxed->count) +
                      " moments, each to a residual of " + three_digits(relaxed->residual) +
                      " within " + std::to_string(relaxed->max_iterations) + " iterations");
   else
-    say(options, "step " + three_digits(setup.steps.step) + " s, " +
-                     three_digits(setup.steps.factor()) + " of the stability limit " +
-                     three_digits(setup.steps.limit) + " s");
-  const double speed = farthest_carried(setup);
-  std::vector<std::string> warnings = fill_warnings(ready.body);
-  for (std::string& warning : warnings_of(setup, ready.surface, speed))
-    warnings.push_back(std::move(warning));
+    say(options, "step " + three_digits(prepared.steps.step) + " s, " +
+                     three_digits(prepared.steps.factor()) + " of the stability limit " +
+                     three_digits(prepared.steps.limit) + " s");
+  const double speed = farthest_carried(prepared);
+  std::vector<std::string> warnings = fill_warnings(prepared.filled);
+  for (std::string& warning : warnings_of(prepared, speed)) warnings.push_back(std::move(warning));
   for (const std::string& warning : warnings)
     if (options.warning) options.warning(warning);
 }
@@ -379,20 +376,21 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
 
   const std::string resolved = readable_scene(scene, folder.scene());
   if (options.resume && folder.used()) check_same_scene(folder, resolved);
-  ReadyScene ready = prepare_in(scene, folder);
+  Prepared prepared = prepare_in(scene, folder);
   RunCheckpoints checkpoints(folder, scene);
-  const RunIdentity identity = identity_of(resolved, ready.setup, ready.surface.triangles);
+  const RunIdentity identity = identity_of(resolved, prepared);
   const auto state = state_to_resume(folder, options, identity, checkpoints);
   if (!state) remove_old_run(folder);
   checkpoints.keep_for(identity);
   RunLog log(folder, options.command, state.has_value());
-  log.spend("filling", ready.seconds_filling);
-  log.spend("binding", ready.seconds_binding);
-  log.describe(scene, ready.setup);
+  log.spend("filling", prepared.seconds_filling);
+  log.spend("binding", prepared.seconds_binding);
+  log.describe(prepared);
   if (options.engine) log.describe(*options.engine);
-  say_what_is_doubtful(ready, options);
+  say_what_is_doubtful(prepared, options);
   if (options.before_stepping) options.before_stepping();
-  const Exit exit = Run(scene, folder, options, log, checkpoints).to_end(std::move(ready), state);
+  const Exit exit =
+      Run(scene, folder, options, log, checkpoints).to_end(std::move(prepared), state);
   return {exit, false, json_text(log.record())};
 }
 

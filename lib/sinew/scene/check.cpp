@@ -67,20 +67,19 @@ double bonds_of_one(const Body& body) { return body.material.bond.second > 0 ? 9
 
 }  // namespace
 
-Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface_points,
-               std::size_t surface_faces) {
-  const OutputSettings& output = settings.output;
-  const auto particles = static_cast<double>(setup.body.rest.size());
-  const auto points = static_cast<double>(surface_points);
-  const auto faces = static_cast<double>(surface_faces);
+Needs needs_of(const Prepared& prepared) {
+  const OutputSettings& output = prepared.settings.output;
+  const auto particles = static_cast<double>(prepared.body.rest.size());
+  const auto points = static_cast<double>(prepared.surface.triangles.points.size());
+  const auto faces = static_cast<double>(prepared.surface.triangles.faces.size());
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
-  const double reals_of_world = setup.body.world ? 3 : 0;  // the force of the world
+  const double reals_of_world = prepared.body.world ? 3 : 0;  // the force of the world
   const double written =
-      particles * written_share(output, setup.body.rest, setup.body.material.pair.r);
-  const double bond_lines = output.bonds ? written * bonds_of_one(setup.body) : 0;
+      particles * written_share(output, prepared.body.rest, prepared.body.material.pair.r);
+  const double bond_lines = output.bonds ? written * bonds_of_one(prepared.body) : 0;
   const double reals =
       bond_lines * reals_per_bond +
-      written * (reals_per_particle + reals_of_world + additional_numbers(output, setup.body)) +
+      written * (reals_per_particle + reals_of_world + additional_numbers(output, prepared.body)) +
       surfaces * points * reals_per_point;
   const double wholes = written * wholes_per_particle + bond_lines * wholes_per_bond +
                         surfaces * (points * wholes_per_point + faces * wholes_per_face);
@@ -89,16 +88,16 @@ Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface
   const double coded =
       raw * (output.encoding == Encoding::raw ? 1 : base64) * (compressed ? kept_by_zlib : 1);
   const double exported = output.export_surface ? points * exported_per_point : 0;
-  const bool bonds = remembers_neighbors(setup.body.material);
+  const bool bonds = remembers_neighbors(prepared.body.material);
   const double checkpoints =
       particles * (checkpoints_per_particle + (bonds ? bonds_per_particle : 0));
   Needs needs;
   needs.disk = static_cast<std::uint64_t>(
-      (coded + exported + bytes_per_frame_beside) * (setup.frames.count + 1) + checkpoints);
-  const StepperChoice choice = stepper_choice(settings.solver);
-  double per_particle = memory_per_particle(choice, setup.body);
+      (coded + exported + bytes_per_frame_beside) * (prepared.frames.count + 1) + checkpoints);
+  const StepperChoice choice = stepper_choice(prepared.settings.solver);
+  double per_particle = memory_per_particle(choice, prepared.body);
   if (output.bonds) per_particle += memory_of_bonds;
-  if (output.bonds || additional_numbers(output, setup.body) > 0)
+  if (output.bonds || additional_numbers(output, prepared.body) > 0)
     per_particle += memory_of_measuring;
   needs.memory = static_cast<std::uint64_t>(particles * per_particle + points * memory_per_point +
                                             memory_beside);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The resources that a run will need.
 //
-//     const Needs needs = needs_of(settings, setup, points, faces);
+//     const Needs needs = needs_of(prepared);
 //     check_space(folder, needs, 0);
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
 
@@ -21,8 +21,7 @@ struct Needs {
   std::uint64_t memory = 0;  ///< bytes while stepping
 };
 
-Needs needs_of(const Settings& settings, const Setup& setup, std::size_t surface_points,
-               std::size_t surface_faces);
+Needs needs_of(const Prepared& prepared);
 
 /// Bytes a user may still write where `folder` is or will be.
 std::uint64_t free_space(const std::filesystem::path& folder);

@@ -230,16 +230,17 @@ Touching meeting(const Body& body, const Pose& pose, const std::vector<Particle>
   return touching;
 }
 
-void warn_of_meeting_limbs(const Setup& setup, const NeighborLists& lists, Warnings& warnings) {
+void warn_of_meeting_limbs(const Prepared& prepared, const NeighborLists& lists,
+                           Warnings& warnings) {
   constexpr int moments = 16;
-  const std::vector<Particle> outer = outer_particles(setup.body, lists);
-  const double end = setup.plan.time(setup.plan.steps_until(setup.frames.count));
-  PoseCursor poses(setup.body.skeleton, setup.motion);
+  const std::vector<Particle> outer = outer_particles(prepared.body, lists);
+  const double end = prepared.plan.time(prepared.plan.steps_until(prepared.frames.count));
+  PoseCursor poses(prepared.body.skeleton, prepared.motion);
   for (int k = 0; k <= moments; ++k) {
     const double time = end * k / moments;
     const std::size_t before = warnings.size();
-    meeting(setup.body, poses.at(time), outer)
-        .warn(setup.body.skeleton,
+    meeting(prepared.body, poses.at(time), outer)
+        .warn(prepared.body.skeleton,
               " meet at " + three_digits(time) +
                   " s and stick to each other; set material.cohesion to initial_neighbors, or "
                   "material.model to bonded",
@@ -250,15 +251,15 @@ void warn_of_meeting_limbs(const Setup& setup, const NeighborLists& lists, Warni
 
 }  // namespace
 
-void warn_of_contacts(const Setup& setup, const Surface& surface, Warnings& warnings) {
-  const Body& body = setup.body;
+void warn_of_contacts(const Prepared& prepared, Warnings& warnings) {
+  const Body& body = prepared.body;
   const NeighborLists lists =
       neighbors_within(body.rest, rest_neighbor_range(body.material.pair.r));
   warn_of_few_layers(body, lists, warnings);
-  warn_of_gaps(body, surface, lists, warnings);
+  warn_of_gaps(body, prepared.surface, lists, warnings);
   const bool sticks =
       body.material.model == MaterialModel::paper && body.material.cohesion == Cohesion::all;
-  if (sticks && !setup.motion.tracks.empty()) warn_of_meeting_limbs(setup, lists, warnings);
+  if (sticks && !prepared.motion.tracks.empty()) warn_of_meeting_limbs(prepared, lists, warnings);
 }
 
 }  // namespace sinew

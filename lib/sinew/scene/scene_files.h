@@ -2,7 +2,7 @@
 // The files that a scene names beside its mesh, read before the work begins.
 //
 //     const SceneFiles files = read_files(settings);
-//     const Setup setup = set_up(settings, files, particles);
+//     const Binding binding = bind_scene(settings, files, skeleton, rest, radius);
 #pragma once
 
 #include <filesystem>

@@ -7,7 +7,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/rig/motion.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/world.h>
 #include <sinew/world/world.h>
 
@@ -82,12 +82,12 @@ double speed_of(const Support& support, const ObstaclePose& now, const Points& r
 class Speedometer {
  public:
   /// Before the first moment, at 0, bones were at rest for `between` s: they may begin elsewhere.
-  Speedometer(const Setup& setup, double between)
-      : skeleton_(setup.body.skeleton),
-        world_(setup.body.world),
-        rest_(setup.body.rest),
-        reach_(reach_of_bones(setup.body)),
-        poses_(setup.body.skeleton, setup.motion),
+  Speedometer(const Prepared& prepared, double between)
+      : skeleton_(prepared.body.skeleton),
+        world_(prepared.body.world),
+        rest_(prepared.body.rest),
+        reach_(reach_of_bones(prepared.body)),
+        poses_(prepared.body.skeleton, prepared.motion),
         time_(-between) {
     for (const Bone& bone : skeleton_.bones) last_.push_back({bone.head(), bone.tail()});
   }
@@ -144,11 +144,11 @@ FrameTimes frame_times(const Settings& settings) {
   return times;
 }
 
-std::vector<double> bone_speeds(const Setup& setup) {
+std::vector<double> bone_speeds(const Prepared& prepared) {
   constexpr int samples = 8;  // per interval: clips have up to 120 frames per second
   std::vector<double> speeds;
-  const FrameTimes& frames = setup.frames;
-  Speedometer bones(setup, frames.interval / samples);
+  const FrameTimes& frames = prepared.frames;
+  Speedometer bones(prepared, frames.interval / samples);
   double last = bones.at(0);
   for (int frame = 0; frame < frames.count; ++frame) {
     double fastest = last;
@@ -177,13 +177,14 @@ double crossing_time(const Body& body) {
 namespace {
 
 /// Into how many parts the steps before each frame are divided.
-std::vector<int> parts_of_steps(const Setup& setup) {
-  const double kept = std::exp(-setup.frames.interval / crossing_time(setup.body));  // of a speed
+std::vector<int> parts_of_steps(const Prepared& prepared) {
+  const double kept =
+      std::exp(-prepared.frames.interval / crossing_time(prepared.body));  // of a speed
   std::vector<int> parts;
   double speed = 0;
-  for (const double of_bones : setup.bone_speeds) {
+  for (const double of_bones : prepared.bone_speeds) {
     speed = std::max(of_bones, kept * speed);
-    const double carried = speed * setup.steps.step / setup.body.material.pair.r;
+    const double carried = speed * prepared.steps.step / prepared.body.material.pair.r;
     parts.push_back(static_cast<int>(std::clamp(std::ceil(carried / max_carried), 1.0, 1e6)));
   }
   return parts;
@@ -191,16 +192,16 @@ std::vector<int> parts_of_steps(const Setup& setup) {
 
 }  // namespace
 
-StepPlan plan_of(const Settings& settings, const Setup& setup) {
-  const StepChoice& steps = setup.steps;
-  const FrameTimes& frames = setup.frames;
+StepPlan plan_of(const Settings& settings, const Prepared& prepared) {
+  const StepChoice& steps = prepared.steps;
+  const FrameTimes& frames = prepared.frames;
   std::vector<int> parts(static_cast<std::size_t>(frames.count), 1);
   std::optional<WholeSteps> last;
   if (settings.solver.method == Method::static_equilibrium) {
     if (frames.is_cut(frames.count)) last = WholeSteps{1, frames.before(frames.count)};
     return StepPlan(frames.interval, 1, std::move(parts), last);
   }
-  if (!settings.solver.time_step) parts = parts_of_steps(setup);
+  if (!settings.solver.time_step) parts = parts_of_steps(prepared);
   if (frames.is_cut(frames.count)) {
     const auto choice = choose_step(steps.step, 1, steps.limit, frames.before(frames.count));
     last = WholeSteps{choice.per_frame, choice.step};
@@ -224,11 +225,11 @@ bool changes(const Body& body, double from, double to) {
 
 }  // namespace
 
-LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
+LoadSteps load_steps_of(const Settings& settings, const Prepared& prepared) {
   // Slow beside waves, which would strain the body more than its load does.
   constexpr double carried_in_radii = 0.02, crossings = 4;
-  const double r = setup.body.material.pair.r;
-  const FrameTimes& frames = setup.frames;
+  const double r = prepared.body.material.pair.r;
+  const FrameTimes& frames = prepared.frames;
   LoadSteps steps;
   steps.interval = frames.interval;
   steps.last = frames.before(frames.count) / frames.interval;
@@ -237,10 +238,10 @@ LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
   const bool single = settings.solver.precision == Precision::binary32;
   steps.residual = settings.solver.residual.value_or(single ? 1e-2 : 1e-6);
   steps.acceptable = settings.solver.residual ? 0 : 1e-4;
-  const double crossing = crossings * crossing_time(setup.body) / setup.steps.step;
-  for (const double speed : setup.bone_speeds) {
+  const double crossing = crossings * crossing_time(prepared.body) / prepared.steps.step;
+  for (const double speed : prepared.bone_speeds) {
     const int frame = static_cast<int>(steps.ramp.size());
-    const bool loads = changes(setup.body, frames.at(frame), frames.at(frame + 1));
+    const bool loads = changes(prepared.body, frames.at(frame), frames.at(frame + 1));
     const double carried = speed * frames.before(frame + 1) / (carried_in_radii * r);
     const double ramp = carried > 0 || loads ? std::max(carried, crossing) : 1;
     steps.ramp.push_back(static_cast<int>(std::clamp(std::ceil(ramp), 1.0, 1e8)));
@@ -248,12 +249,12 @@ LoadSteps load_steps_of(const Settings& settings, const Setup& setup) {
   return steps;
 }
 
-double farthest_carried(const Setup& setup) {
+double farthest_carried(const Prepared& prepared) {
   double farthest = 0;
-  const std::vector<double>& speeds = setup.bone_speeds;
+  const std::vector<double>& speeds = prepared.bone_speeds;
   for (std::size_t i = 0; i < speeds.size(); ++i)
-    farthest = std::max(farthest, speeds[i] / setup.plan.parts(static_cast<int>(i)));
-  return farthest * setup.steps.step / setup.body.material.pair.r;
+    farthest = std::max(farthest, speeds[i] / prepared.plan.parts(static_cast<int>(i)));
+  return farthest * prepared.steps.step / prepared.body.material.pair.r;
 }
 
 namespace {

@@ -2,8 +2,8 @@
 // The steps of a scene: how long they are, where fast bones need shorter ones, and which stepper
 // makes them.
 //
-//     setup.steps = steps_of(settings, setup.body);
-//     setup.plan = plan_of(settings, setup);
+//     prepared.steps = steps_of(settings, prepared.body);
+//     prepared.plan = plan_of(settings, prepared);
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace sinew {
 
-struct Setup;
+struct Prepared;
 
 /// The moments of frames: one every `interval` from 0 on, and the last at `end`.
 struct FrameTimes {
@@ -46,19 +46,19 @@ StepChoice choose_step(const SolverSettings& solver, double limit, double interv
 StepChoice steps_of(const Settings& settings, const Body& body);
 
 /// An upper bound of the speed at which bones and supports carry any particle, m/s: from each frame
-/// to the next. Takes its time where frames and bones are many: once, into Setup::bone_speeds.
-std::vector<double> bone_speeds(const Setup& setup);
+/// to the next. Takes its time where frames and bones are many: once, into Prepared::bone_speeds.
+std::vector<double> bone_speeds(const Prepared& prepared);
 
 /// With time_step: auto, the steps of each interval are divided until bones carry no particle
 /// farther in one than max_carried radii; otherwise all are even.
-StepPlan plan_of(const Settings& settings, const Setup& setup);
+StepPlan plan_of(const Settings& settings, const Prepared& prepared);
 inline constexpr double max_carried = 0.2;
 
 /// An upper bound of how far bones carry any particle in one step, in radii.
-double farthest_carried(const Setup& setup);
+double farthest_carried(const Prepared& prepared);
 
 /// Of a scene of the static method: its frames are moments at which the body is at rest.
-LoadSteps load_steps_of(const Settings& settings, const Setup& setup);
+LoadSteps load_steps_of(const Settings& settings, const Prepared& prepared);
 
 // The stepper that a run uses.
 

@@ -71,8 +71,8 @@ void warn_of_speed(double speed, Warnings& warnings) {
                        "solver.time_step");
 }
 
-std::string bone_of(const Setup& setup, const Track& track) {
-  return '\'' + setup.body.skeleton.bones[track.bone].name + '\'';
+std::string bone_of(const Prepared& prepared, const Track& track) {
+  return '\'' + prepared.body.skeleton.bones[track.bone].name + '\'';
 }
 
 /// The largest rotation of the bone about itself in the track, by rotations and twist, rad.
@@ -87,19 +87,20 @@ double turn_about_bone(const Bone& bone, const Track& track) {
 }
 
 /// Planes of particles over which a rotation about the bone is distributed.
-double planes_of_zone(const Setup& setup, double joint_zone, int bone) {
-  const double length = joint_zone * std::sqrt(setup.body.binding.cross_section[bone]);
-  return std::max(1.0, length / half_plane_spacing(setup.body.material.pair.r));
+double planes_of_zone(const Prepared& prepared, double joint_zone, int bone) {
+  const double length = joint_zone * std::sqrt(prepared.body.binding.cross_section[bone]);
+  return std::max(1.0, length / half_plane_spacing(prepared.body.material.pair.r));
 }
 
-void warn_of_cut(const Setup& setup, const Track& track, Warnings& warnings) {
-  const Bone& bone = setup.body.skeleton.bones[track.bone];
-  if (bone.parent == no_bone || setup.weights_given) return;
+void warn_of_cut(const Prepared& prepared, const Track& track, Warnings& warnings) {
+  const Bone& bone = prepared.body.skeleton.bones[track.bone];
+  if (bone.parent == no_bone || prepared.weights_given) return;
   const double turn = turn_about_bone(bone, track);
-  const double step = degrees(turn) / planes_of_zone(setup, setup.joint_zone, track.bone);
+  const double step = degrees(turn) / planes_of_zone(prepared, prepared.joint_zone, track.bone);
   if (step > steepest_joint)
-    warnings.push_back("bone " + bone_of(setup, track) + " turns " + three_digits(degrees(turn)) +
-                       " degrees about itself, " + three_digits(step) +
+    warnings.push_back("bone " + bone_of(prepared, track) + " turns " +
+                       three_digits(degrees(turn)) + " degrees about itself, " +
+                       three_digits(step) +
                        " from one plane of particles to the next: that cuts the body; set "
                        "binding.joint_zone to 3 or more and binding.twist_stiffness to 6.4");
 }
@@ -130,10 +131,10 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
 }
 
 /// Angles of 1.57 and the like, all of them small.
-void warn_of_radians(const Setup& setup, Warnings& warnings) {
+void warn_of_radians(const Prepared& prepared, Warnings& warnings) {
   constexpr double twelfth = pi / 12, rounding = 0.005;  // of numbers with two decimals
   double largest = 0;
-  for (const Track& track : setup.motion.tracks)
+  for (const Track& track : prepared.motion.tracks)
     for (const Quat& rotation : track.rotation.values)
       largest = std::max(largest, degrees(rotation_vector(rotation).norm()));
   const double parts = std::round(largest / twelfth), off = largest - parts * twelfth;
@@ -206,9 +207,10 @@ bool spans_bones(const Skeleton& skeleton, double shortest, const Vec3& from, co
 }
 
 /// The surface follows the particles at its points alone.
-void warn_of_coarse_surface(const Setup& setup, const Triangles& surface, Warnings& warnings) {
-  if (setup.motion.tracks.empty()) return;
-  const Skeleton& skeleton = setup.body.skeleton;
+void warn_of_coarse_surface(const Prepared& prepared, Warnings& warnings) {
+  if (prepared.motion.tracks.empty()) return;
+  const Skeleton& skeleton = prepared.body.skeleton;
+  const Triangles& surface = prepared.surface.triangles;
   double shortest = skeleton.bones.front().length;
   for (const Bone& bone : skeleton.bones) shortest = std::min(shortest, bone.length);
   std::size_t count = 0;
@@ -227,14 +229,14 @@ void warn_of_coarse_surface(const Setup& setup, const Triangles& surface, Warnin
 }
 
 /// A body that begins inside an obstacle is pushed out of it violently.
-void warn_of_overlaps(const Setup& setup, Warnings& warnings) {
-  if (!setup.body.world) return;
-  const World& world = *setup.body.world;
-  const WorldNow start = world_at(world, 0, pose_at(setup.body.skeleton, setup.motion, 0));
-  const double r = setup.body.material.pair.r;
+void warn_of_overlaps(const Prepared& prepared, Warnings& warnings) {
+  if (!prepared.body.world) return;
+  const World& world = *prepared.body.world;
+  const WorldNow start = world_at(world, 0, pose_at(prepared.body.skeleton, prepared.motion, 0));
+  const double r = prepared.body.material.pair.r;
   for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
     std::size_t count = 0;
-    for (const Vec3& place : setup.body.rest) {
+    for (const Vec3& place : prepared.body.rest) {
       const double pressing =
           contact(world.obstacles[k], start.obstacles[k], place, Vec3::Zero(), r).pressing;
       count += pressing > deepest_start * r * world.obstacles[k].stiffness;
@@ -286,27 +288,26 @@ void warn_of_idle_loads(const World* world, Warnings& warnings) {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const Setup& setup, const Surface& surface,
-                                     double bone_speed) {
-  Warnings warnings = setup.file_warnings;
-  if (setup.body.material.model == MaterialModel::paper)
-    warn_of_material(setup.body.material.pair, warnings);
-  warn_of_step(setup.steps, warnings);
+std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed) {
+  Warnings warnings = prepared.file_warnings;
+  if (prepared.body.material.model == MaterialModel::paper)
+    warn_of_material(prepared.body.material.pair, warnings);
+  warn_of_step(prepared.steps, warnings);
   warn_of_speed(bone_speed, warnings);
-  for (const Track& track : setup.motion.tracks) warn_of_cut(setup, track, warnings);
-  for (std::string& warning :
-       motion_warnings(setup.body.skeleton, setup.motion, min_shift * setup.body.material.pair.r))
+  for (const Track& track : prepared.motion.tracks) warn_of_cut(prepared, track, warnings);
+  for (std::string& warning : motion_warnings(prepared.body.skeleton, prepared.motion,
+                                              min_shift * prepared.body.material.pair.r))
     warnings.push_back(std::move(warning));
-  warn_of_groups(setup.body.grouping.get(), warnings);
-  warn_of_unit(setup.body, warnings);
-  warn_of_radians(setup, warnings);
-  warn_of_idle_bones(setup.body, warnings);
-  warn_of_idle_loads(setup.body.world.get(), warnings);
-  warn_of_far_particles(setup.body, warnings);
-  warn_of_unreached(setup.body.binding, warnings);
-  warn_of_overlaps(setup, warnings);
-  warn_of_coarse_surface(setup, surface.triangles, warnings);
-  warn_of_contacts(setup, surface, warnings);
+  warn_of_groups(prepared.body.grouping.get(), warnings);
+  warn_of_unit(prepared.body, warnings);
+  warn_of_radians(prepared, warnings);
+  warn_of_idle_bones(prepared.body, warnings);
+  warn_of_idle_loads(prepared.body.world.get(), warnings);
+  warn_of_far_particles(prepared.body, warnings);
+  warn_of_unreached(prepared.body.binding, warnings);
+  warn_of_overlaps(prepared, warnings);
+  warn_of_coarse_surface(prepared, warnings);
+  warn_of_contacts(prepared, warnings);
   return warnings;
 }
 

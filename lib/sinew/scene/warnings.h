@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is doubtful in a scene that can be run all the same.
 //
-//     for (const std::string& warning : warnings_of(setup, surface, speed)) print(warning);
+//     for (const std::string& warning : warnings_of(prepared, speed)) print(warning);
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 
 namespace sinew {
 
 /// One line each, with the number, the reason and the cure. `surface`: of the body; `bone_speed` in
 /// radii per step.
-std::vector<std::string> warnings_of(const Setup& setup, const Surface& surface, double bone_speed);
+std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed);
 
 /// Adds a line where the body is one or two layers of particles thick, where limbs touch at rest
 /// across a gap of the mesh, and where limbs that do not belong together meet in the motion of a
 /// material that sticks to itself.
-void warn_of_contacts(const Setup& setup, const Surface& surface,
-                      std::vector<std::string>& warnings);
+void warn_of_contacts(const Prepared& prepared, std::vector<std::string>& warnings);
 
 /// How stiff the filled body is along a bone, beside the Young's modulus that was asked for.
 struct BoneStiffness {

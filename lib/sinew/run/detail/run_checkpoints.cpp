@@ -81,16 +81,17 @@ std::uint64_t body_hash(const Body& body, const Triangles& surface) {
 }
 
 /// The bones at sampled times of the run, and the obstacles around it.
-std::uint64_t motion_hash(const Setup& setup) {
+std::uint64_t motion_hash(const Prepared& prepared) {
   constexpr int moments = 1000;
-  const double end = setup.plan.time(setup.plan.steps_until(setup.frames.count));
+  const double end = prepared.plan.time(prepared.plan.steps_until(prepared.frames.count));
   Hash hash;
   for (int i = 0; i <= moments; ++i)
-    for (const BonePose& bone : pose_at(setup.body.skeleton, setup.motion, end * i / moments)) {
+    for (const BonePose& bone :
+         pose_at(prepared.body.skeleton, prepared.motion, end * i / moments)) {
       hash.add(bone.frame.origin.data(), 3 * sizeof(double));
       hash.add(bone.frame.rotation.data(), 9 * sizeof(double));
     }
-  for (const Triangles& obstacle : setup.obstacles) add(obstacle, hash);
+  for (const Triangles& obstacle : prepared.obstacles) add(obstacle, hash);
   return hash.value();
 }
 
@@ -109,11 +110,15 @@ void check_same_scene(const RunFolder& folder, const std::string& resolved) {
   }
 }
 
-RunIdentity identity_of(const std::string& resolved, const Setup& setup, const Triangles& surface) {
+RunIdentity identity_of(const std::string& resolved, const Prepared& prepared) {
   Hash scene;
   for (const DecidingLine& line : deciding_lines(resolved)) scene.add(line.text + '\n');
-  return {version(),          scene.value(),          body_hash(setup.body, surface),
-          motion_hash(setup), setup.body.rest.size(), setup.steps.step};
+  return {version(),
+          scene.value(),
+          body_hash(prepared.body, prepared.surface.triangles),
+          motion_hash(prepared),
+          prepared.body.rest.size(),
+          prepared.steps.step};
 }
 
 RunCheckpoints::RunCheckpoints(const RunFolder& folder, const Settings& settings)

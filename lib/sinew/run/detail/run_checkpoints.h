@@ -12,7 +12,7 @@
 #include <sinew/io/checkpoint.h>
 #include <sinew/run/frame_writer.h>
 #include <sinew/run/run_folder.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/settings/settings.h>
 
 namespace sinew {
@@ -21,9 +21,9 @@ namespace sinew {
 /// scene. Settings that do not affect the result (checkpoints, wall time) may differ.
 void check_same_scene(const RunFolder& folder, const std::string& resolved);
 
-/// Identity of a setup with the body's skin at rest and the resolved scene. Includes the content of
-/// the scene's files: meshes, rigs and clips may have changed under the same name.
-RunIdentity identity_of(const std::string& resolved, const Setup& setup, const Triangles& surface);
+/// Identity of a prepared scene with the body's skin at rest and the resolved scene. Includes the
+/// content of the scene's files: meshes, rigs and clips may have changed under the same name.
+RunIdentity identity_of(const std::string& resolved, const Prepared& prepared);
 
 class RunCheckpoints {
  public:

@@ -111,15 +111,16 @@ void RunLog::log(const std::string& line) {
   log_.add(dated.data(), dated.size());
 }
 
-void RunLog::describe(const Settings& settings, const Setup& setup) {
-  const StepChoice& steps = setup.steps;
-  record_["particles"] = setup.body.rest.size();
-  record_["radius"] = setup.body.material.pair.r;
-  record_["particle_mass"] = setup.body.material.mass;
-  record_["material"] = material_of(setup.body.material);
-  if (!settings.materials.empty()) record_["materials"] = materials_of(settings, setup.body);
-  record_["bones"] = bones_of(setup.body.skeleton);
-  for (const BoneStiffness& bone : stiffness_along_bones(setup.body))
+void RunLog::describe(const Prepared& prepared) {
+  const Settings& settings = prepared.settings;
+  const StepChoice& steps = prepared.steps;
+  record_["particles"] = prepared.body.rest.size();
+  record_["radius"] = prepared.body.material.pair.r;
+  record_["particle_mass"] = prepared.body.material.mass;
+  record_["material"] = material_of(prepared.body.material);
+  if (!settings.materials.empty()) record_["materials"] = materials_of(settings, prepared.body);
+  record_["bones"] = bones_of(prepared.body.skeleton);
+  for (const BoneStiffness& bone : stiffness_along_bones(prepared.body))
     record_["stiffness_along_bones"].push_back({{"bone", bone.bone},
                                                 {"young_modulus", bone.young_modulus},
                                                 {"planes_across", bone.planes},
@@ -130,15 +131,15 @@ void RunLog::describe(const Settings& settings, const Setup& setup) {
   record_["time_step_limit"] = steps.limit;
   record_["time_step_factor"] = steps.factor();
   record_["steps_per_frame"] = steps.per_frame;
-  describe(setup.plan, setup.frames.count);
+  describe(prepared.plan, prepared.frames.count);
   describe(stepper_choice(settings.solver));
-  describe(setup.body.grouping.get());
+  describe(prepared.body.grouping.get());
   record_["steps"] = 0;
   record_["frames"] = 0;
   record_["arrays"] = arrays_with_units();
   write_record(folder_, record_);
-  log(std::to_string(setup.body.rest.size()) + " particles of radius " +
-      number_text(setup.body.material.pair.r) + " m, " + std::to_string(setup.frames.count) +
+  log(std::to_string(prepared.body.rest.size()) + " particles of radius " +
+      number_text(prepared.body.material.pair.r) + " m, " + std::to_string(prepared.frames.count) +
       " frames of " + std::to_string(steps.per_frame) + " steps");
   log("stability limit " + number_text(steps.limit) + " s, step " + number_text(steps.step) +
       " s, factor " + number_text(steps.factor()));

@@ -12,7 +12,7 @@
 #include <sinew/core/file.h>
 #include <sinew/run/engine_steps.h>
 #include <sinew/run/run_folder.h>
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 #include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
 
@@ -24,7 +24,7 @@ class RunLog {
   /// written.
   RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed = false);
 
-  void describe(const Settings& settings, const Setup& setup);
+  void describe(const Prepared& prepared);
   /// That makes the steps in another program.
   void describe(const Engine& engine);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/setup.h>
+#include <sinew/scene/prepare.h>
 
 #include <algorithm>
 #include <cmath>
@@ -178,84 +178,114 @@ void refuse_free(const Settings& settings, const Body& body) {
                   "add supports, pins or bones that do, or set solver.method to dynamic");
 }
 
-}  // namespace
+/// Groups that stay, or sizes of those that change.
+void set_groups(Prepared& prepared) {
+  const auto sizes = group_sizes(prepared.settings, prepared.body);
+  if (!sizes) return;
+  if (prepared.settings.hierarchy.dynamic)
+    prepared.dynamic_groups = {*sizes, prepared.settings.hierarchy.tolerance};
+  else
+    prepared.body.grouping =
+        groups_that_stay(prepared.settings, prepared.body, prepared.motion, *sizes);
+}
 
-Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
-             LocalMaterial local) {
-  check_packing(settings);
-  Setup setup;
-  setup.frames = frame_times(settings);
+/// Binds the particles to the bones, in their world.
+void bind(const SceneFiles& files, Prepared& prepared) {
+  const Settings& settings = prepared.settings;
   SceneRig rig = rig_of(settings, files);
-  const std::vector<std::int32_t> component = local.component;
-  setup.body = make_body(settings, files, std::move(rig.skeleton), particles, std::move(local));
-  SceneWorld around = world_of(settings, files, setup.body, component);
-  setup.body.world = std::move(around.world);
-  setup.obstacles = std::move(around.obstacles);
-  setup.probes = std::move(around.probes);
-  setup.motion = std::move(rig.motion);
-  setup.file_warnings = settings.warnings;
-  for (const std::string& warning : warnings_of(files)) setup.file_warnings.push_back(warning);
-  setup.joint_zone = settings.binding.joint_zone;
-  setup.weights_given = settings.binding.method == BindMethod::file;
-  if (const auto sizes = group_sizes(settings, setup.body)) {
-    if (settings.hierarchy.dynamic)
-      setup.dynamic_groups = {*sizes, settings.hierarchy.tolerance};
-    else
-      setup.body.grouping = groups_that_stay(settings, setup.body, setup.motion, *sizes);
-  }
-  if (is_static(settings)) {
-    refuse_free(settings, setup.body);
-    setup.body = undamped(std::move(setup.body));
-  }
-  setup.steps = steps_of(settings, setup.body);
-  setup.bone_speeds = bone_speeds(setup);
-  setup.plan = plan_of(settings, setup);
-  if (is_static(settings)) setup.load_steps = load_steps_of(settings, setup);
+  prepared.body = make_body(settings, files, std::move(rig.skeleton), prepared.filled.particles,
+                            local_material(prepared.filled));
+  SceneWorld around = world_of(settings, files, prepared.body, prepared.filled.component);
+  prepared.body.world = std::move(around.world);
+  prepared.obstacles = std::move(around.obstacles);
+  prepared.probes = std::move(around.probes);
+  prepared.motion = std::move(rig.motion);
+  prepared.file_warnings = settings.warnings;
+  for (const std::string& warning : warnings_of(files)) prepared.file_warnings.push_back(warning);
+  prepared.joint_zone = settings.binding.joint_zone;
+  prepared.weights_given = settings.binding.method == BindMethod::file;
+  set_groups(prepared);
+  if (!is_static(settings)) return;
+  refuse_free(settings, prepared.body);
+  prepared.body = undamped(std::move(prepared.body));
+}
+
+/// Chooses the step, and plans the run.
+void plan(Prepared& prepared) {
+  const Settings& settings = prepared.settings;
+  prepared.steps = steps_of(settings, prepared.body);
+  prepared.bone_speeds = bone_speeds(prepared);
+  prepared.plan = plan_of(settings, prepared);
+  if (is_static(settings)) prepared.load_steps = load_steps_of(settings, prepared);
   if (settings.output.region)
     with_context(settings, "output.region", [&] {
-      written_particles(settings.output, setup.body.rest, setup.body.material.pair.r);
+      written_particles(settings.output, prepared.body.rest, prepared.body.material.pair.r);
     });
-  if (static_cast<double>(setup.plan.steps_until(setup.frames.count)) > max_steps)
+  if (static_cast<double>(prepared.plan.steps_until(prepared.frames.count)) > max_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
                     "make solver.duration shorter or solver.time_step longer");
-  return setup;
 }
 
-ReadyScene prepare(const Settings& given, std::optional<BodyFile> body) {
+/// What binding tells of the particles.
+void complete(const Body& body, BodyFile& filled) {
+  if (!body.stiffness.empty()) filled.stiffness = body.stiffness;
+  if (!body.density.empty()) filled.density = body.density;
+  if (!body.local.volume.empty()) filled.volume_stiffness = body.local.volume;
+  filled.bone = bones_of_particles(body);
+  filled.weight = weights_of_particles(body);
+}
+
+}  // namespace
+
+Prepared prepare(Scene scene) {
   Stopwatch watch;
-  check_packing(given);
-  const Settings settings = with_fit(given);
-  ReadyScene ready;
-  ready.surface = read_mesh(settings);
-  if (settings.output.export_surface) ready.look = look_of_mesh(settings, ready.surface.triangles);
+  check_packing(scene.settings);
+  Prepared prepared;
+  prepared.settings = with_fit(scene.settings);
+  const Settings& settings = prepared.settings;
+  if (scene.with_surface || !scene.filled) prepared.surface = read_mesh(settings);
+  if (scene.with_surface && settings.output.export_surface)
+    prepared.look = look_of_mesh(settings, prepared.surface.triangles);
   SceneFiles files = read_files(settings);
-  files.surface = ready.surface.triangles;
-  ready.body =
-      body ? *std::move(body) : body_file(fill_body(settings, ready.surface), origin_of(settings));
-  ready.seconds_filling = watch.lap();
-  ready.setup = set_up(settings, files, ready.body.particles, local_material(ready.body));
-  if (!ready.setup.body.stiffness.empty()) ready.body.stiffness = ready.setup.body.stiffness;
-  if (!ready.setup.body.density.empty()) ready.body.density = ready.setup.body.density;
-  if (!ready.setup.body.local.volume.empty())
-    ready.body.volume_stiffness = ready.setup.body.local.volume;
-  ready.body.bone = bones_of_particles(ready.setup.body);
-  ready.body.weight = weights_of_particles(ready.setup.body);
-  ready.seconds_binding = watch.lap();
-  return ready;
+  files.surface = prepared.surface.triangles;
+  if (scene.filled) {
+    prepared.filled = *std::move(scene.filled);
+  } else {
+    Filling filling = fill_body(settings, prepared.surface);
+    prepared.report = filling.report;
+    prepared.filled = body_file(std::move(filling), origin_of(settings));
+  }
+  prepared.seconds_filling = watch.lap();
+  prepared.frames = frame_times(settings);
+  bind(files, prepared);
+  plan(prepared);
+  complete(prepared.body, prepared.filled);
+  prepared.seconds_binding = watch.lap();
+  return prepared;
 }
 
-Simulation start(const Settings& settings, const ReadyScene& ready) {
-  return start(settings, ready.setup, ready.body.particles);
+Simulation start(const Prepared& prepared) {
+  Prepared copy;
+  copy.settings = prepared.settings;
+  copy.filled.particles = prepared.filled.particles;
+  copy.body = prepared.body;
+  copy.motion = prepared.motion;
+  copy.steps = prepared.steps;
+  copy.plan = prepared.plan;
+  copy.load_steps = prepared.load_steps;
+  copy.dynamic_groups = prepared.dynamic_groups;
+  return start(std::move(copy));
 }
 
-Simulation start(const Settings& settings, Setup setup, Particles particles) {
-  Simulation simulation(std::move(setup.body), std::move(setup.motion), std::move(particles),
-                        stepping_of(settings.solver, setup.steps.step));
-  if (setup.load_steps)
-    simulation.relax(*std::move(setup.load_steps));
+Simulation start(Prepared&& prepared) {
+  Simulation simulation(std::move(prepared.body), std::move(prepared.motion),
+                        std::move(prepared.filled.particles),
+                        stepping_of(prepared.settings.solver, prepared.steps.step));
+  if (prepared.load_steps)
+    simulation.relax(*std::move(prepared.load_steps));
   else
-    simulation.follow(std::move(setup.plan));
-  if (setup.dynamic_groups) simulation.group_as_it_moves(*setup.dynamic_groups);
+    simulation.follow(std::move(prepared.plan));
+  if (prepared.dynamic_groups) simulation.group_as_it_moves(*prepared.dynamic_groups);
   return simulation;
 }
 

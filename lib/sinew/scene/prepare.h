@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a scene and its filled body to a simulation that can be stepped.
+// The one door from a scene to a simulation that can be stepped: its files read, its mesh filled,
+// the particles bound to the bones, the step chosen.
 //
-//     const ReadyScene ready = prepare(settings);
-//     Simulation simulation = start(settings, ready);
+//     Prepared prepared = prepare({read_scene("scene.yaml")});
+//     Simulation simulation = start(prepared);
 #pragma once
 
 #include <optional>
@@ -11,6 +12,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/surface_look.h>
 #include <sinew/core/triangles.h>
+#include <sinew/fill/fill_report.h>
 #include <sinew/groups/make_grouping.h>
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
@@ -45,8 +47,24 @@ LocalMaterial local_material(const BodyFile& body);
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
                const Particles& particles, LocalMaterial local = {});
 
-struct Setup {
-  Body body;
+/// What is prepared.
+struct Scene {
+  Settings settings;
+  /// Particles at rest, in place of filling the mesh; what they are of may be another mesh.
+  std::optional<BodyFile> filled = {};
+  /// Reads the surface of the body, which pictures, loads and pressures need; all that is not
+  /// `filled` has one.
+  bool with_surface = true;
+};
+
+/// A scene filled, bound and ready to be stepped.
+struct Prepared {
+  Settings settings;                      ///< of the scene, fitted to its rig as skeleton.fit asks
+  Surface surface;                        ///< of the body; empty: not read
+  SurfaceLook look;                       ///< of the surface, where it is exported
+  BodyFile filled;                        ///< the particles at rest, as body.vtu has them
+  std::optional<FillReport> report = {};  ///< where the mesh was filled now
+  Body body;                              ///< the particles on the bones, in their world
   Motion motion;
   StepChoice steps;
   std::vector<double> bone_speeds;  ///< before each frame, as bone_speeds() finds them, m/s
@@ -59,30 +77,17 @@ struct Setup {
   bool weights_given = false;  ///< by a file: they distribute rotations in their own manner
   std::vector<std::string> file_warnings = {};  ///< what its files get wrong, with their places
   FrameTimes frames;
-};
-
-/// Binds the particles to the bones and chooses the step. Errors name the scene's line.
-Setup set_up(const Settings& settings, const SceneFiles& files, const Particles& particles,
-             LocalMaterial local = {});
-
-/// A scene filled, bound and ready to be stepped.
-struct ReadyScene {
-  Surface surface;
-  SurfaceLook look;  ///< of the surface, where it is exported
-  BodyFile body;
-  Setup setup;
   double seconds_filling = 0, seconds_binding = 0;
 };
 
-/// Reads the scene's files, fills its mesh (or takes the `body` of an earlier fill), binds the
-/// particles and chooses the step. Errors name the scene's line.
-ReadyScene prepare(const Settings& settings, std::optional<BodyFile> body = {});
+/// Reads the scene's files, fills its mesh, binds the particles and chooses the step. Throws bad
+/// input, with the scene's line.
+Prepared prepare(Scene scene);
 
-/// The simulation of a scene, at its start.
-Simulation start(const Settings& settings, const ReadyScene& ready);
-
-/// The simulation of a setup, at its start. Moved arguments are not copied.
-Simulation start(const Settings& settings, Setup setup, Particles particles);
+/// The simulation of a prepared scene, at its start.
+Simulation start(const Prepared& prepared);
+/// The same; takes body, motion, plan and particles out of `prepared`, and copies none of them.
+Simulation start(Prepared&& prepared);
 
 /// The bone with the largest weight for each particle, in the written order.
 std::vector<std::int32_t> bones_of_particles(const Body& body);
