@@ -74,61 +74,75 @@ class Stepped {
 
   void set_forces(const GivenPoints& given) {
     refuse_while_stepping();
-    if (!pushes_)
+    if (!own_forces_)
       throw bad_input("this simulation takes no forces",
                       "make it with sinew.Simulation(scene, own_forces=True)");
-    Points forces = points_of(given, "forces");
-    if (forces.size() != pushes_->size())
-      throw bad_input("there are " + std::to_string(forces.size()) + " forces for " +
-                          std::to_string(pushes_->size()) + " particles",
-                      "give one for each");
-    if (!all_finite(forces)) throw bad_input("a force is not finite", "give numbers, in newtons");
-    *pushes_ = std::move(forces);
+    own_forces_->set(points_of(given, "forces"));
   }
 
-  /// Bones that are not named, now or before, stay as they are.
   void set_pose(const std::map<std::string, std::array<double, 4>>& rotations, double over) {
     refuse_while_stepping();
-    if (!(over > 0)) throw bad_input("a pose takes no time", "give over=SECONDS, above 0");
-    const Skeleton& skeleton = simulation_->body().skeleton;
-    for (const auto& [name, quaternion] : rotations) check_bone(skeleton, name);
-    auto target = target_;
-    for (const auto& [name, quaternion] : rotations) target[name] = quaternion;
-    const std::vector<LocalMotion> now = local_motions(skeleton, motion_, time());
-    std::vector<TrackDefinition> tracks;
-    for (std::size_t bone = 0; bone < now.size(); ++bone) {
-      const std::string& name = skeleton.bones[bone].name;
-      TrackDefinition track{name,
-                            Interpolation::smooth,
-                            "xyz",
-                            {key_of(now[bone], time()), key_of(now[bone], time() + over)}};
-      if (target.contains(name)) track.keys[1].quaternion = target[name];
-      tracks.push_back(std::move(track));
+    BoneRotations turned;
+    for (const auto& [name, q] : rotations) turned[name] = Quat(q[0], q[1], q[2], q[3]);
+    Posing next = *posing_;
+    next.turn(turned, time(), over);
+    simulation_->play(next.motion());  // which may refuse: what is remembered stays true
+    posing_ = std::move(next);
+  }
+
+  /// Frames of the bones: axes as columns and the head, as homogeneous matrices, row by row.
+  std::vector<std::array<double, 16>> bone_frames() const {
+    refuse_while_stepping();
+    std::vector<std::array<double, 16>> frames;
+    for (const BonePose& bone : simulation_->pose()) {
+      std::array<double, 16> rows{};
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+          rows[4 * row + column] = bone.frame.rotation(row, column);
+        rows[4 * row + 3] = bone.frame.origin[row];
+      }
+      rows[15] = 1;
+      frames.push_back(rows);
     }
-    Motion motion = played(make_motion(tracks, skeleton), {});
-    simulation_->play(motion);  // which may refuse: what is remembered stays true
-    motion_ = std::move(motion);
-    target_ = std::move(target);
+    return frames;
+  }
+  /// Force and moment of the body on each bone, a row each.
+  std::vector<std::array<double, 6>> reactions() {
+    refuse_while_stepping();
+    std::vector<std::array<double, 6>> rows;
+    for (const Reaction& one : simulation_->reactions_of_bones().sums())
+      rows.push_back(
+          {one.force[0], one.force[1], one.force[2], one.moment[0], one.moment[1], one.moment[2]});
+    return rows;
+  }
+  /// An array of the particles, as output.arrays names it, and its components.
+  std::pair<std::vector<double>, int> measured(const std::string& name) {
+    refuse_while_stepping();
+    const WithoutGil free;
+    if (!meter_) {
+      if (faces_.empty())
+        throw bad_input("this body has no surface", "make it from a scene with a mesh");
+      meter_.emplace(simulation_->body(), skin_at_rest_);
+    }
+    std::vector<Column> found = meter_->arrays(*simulation_, name);
+    if (found.size() != 1)
+      throw bad_input("'" + name + "' names " + std::to_string(found.size()) + " arrays",
+                      "name one, such as stress");
+    return {std::get<std::vector<double>>(std::move(found[0].values)), found[0].components};
+  }
+
+  SimulationState save() const {
+    refuse_while_stepping();
+    return simulation_->save();
+  }
+  void restore(const SimulationState& state) {
+    refuse_while_stepping();
+    simulation_->restore(state);
+    time_ = simulation_->time(), steps_ = simulation_->steps();
+    read_at_ = -1;
   }
 
  private:
-  static void check_bone(const Skeleton& skeleton, const std::string& name) {
-    if (std::none_of(skeleton.bones.begin(), skeleton.bones.end(),
-                     [&](const Bone& bone) { return bone.name == name; }))
-      throw bad_input("there is no bone '" + name + "'", "see simulation.bones");
-  }
-
-  static KeyDefinition key_of(const LocalMotion& local, double time) {
-    KeyDefinition key;
-    key.time = time;
-    const Quat& q = local.rotation;
-    key.quaternion = {q.w(), q.x(), q.y(), q.z()};
-    key.twist = degrees(local.twist);
-    key.translation = local.translation;
-    key.stretch = local.stretch;
-    return key;
-  }
-
   [[noreturn]] static void refuse() {
     throw bad_input("another thread steps this simulation", "wait until its step() has returned");
   }
@@ -142,16 +156,12 @@ class Stepped {
     if (!faces_.empty())
       skin_ = make_skin(prepared.surface.triangles.points, body.rest,
                         prepared.filled.particles.radius, body.skeleton, body.binding);
+    skin_at_rest_ = prepared.surface.triangles;
     if (own_forces) {
-      World world = body.world ? *body.world : World();
-      pushes_ = std::make_shared<Points>(body.rest.size(), Vec3::Zero());
-      const auto push = [pushes = pushes_](const Vec3&, const Grain& grain) {
-        return (*pushes)[grain.id];
-      };
-      world.fields.push_back({"own", CustomForce{push}, {}, {}});
-      prepared.body.world = std::make_shared<const World>(std::move(world));
+      own_forces_.emplace(body.rest.size());
+      prepared.body.world = own_forces_->added_to(body.world);
     }
-    motion_ = prepared.motion;
+    posing_.emplace(body.skeleton, prepared.motion);
     simulation_.emplace(start(std::move(prepared)));
     read();
   }
@@ -189,21 +199,19 @@ class Stepped {
     refuse_while_stepping();
     if (read_at_ == simulation_->steps()) return *this;
     const Particles& now = simulation_->particles();
-    positions_.resize(now.size()), velocities_.resize(now.size());
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      const auto id = static_cast<std::size_t>(now.id[i]);
-      positions_[id] = now.position(i), velocities_[id] = now.velocity(i);
-    }
+    find_positions_by_id(now, positions_);
+    find_velocities_by_id(now, velocities_);
     read_at_ = simulation_->steps();
     return *this;
   }
 
   std::optional<Simulation> simulation_;
-  Motion motion_;
-  std::map<std::string, std::array<double, 4>> target_;
+  std::optional<Posing> posing_;
+  std::optional<OwnForces> own_forces_;
+  std::optional<ParticleMeter> meter_;  ///< where arrays were asked for
+  Triangles skin_at_rest_;
   std::optional<Skin> skin_;
   std::vector<std::array<int, 3>> faces_;
-  std::shared_ptr<Points> pushes_;
   Points positions_, velocities_, forces_, surface_;
   std::int64_t read_at_ = -1;
   std::atomic<bool> stepping_ = false;
@@ -221,6 +229,7 @@ class pybind11::detail::type_caster<sinew::python::Stepped>
 namespace sinew::python {
 
 void bind_simulation(py::module_& module) {
+  py::class_<SimulationState>(module, "State");
   using S = Stepped;
   const auto view = [](auto array) {
     return [array](const py::object& self) { return view_of((self.cast<S&>().*array)(), self); };
@@ -233,6 +242,35 @@ void bind_simulation(py::module_& module) {
       .def("set_forces", &S::set_forces, py::arg("forces"))
       .def("set_pose", &S::set_pose, py::arg("rotations"), py::arg("over") = 1.0 / 30)
       .def("energies", &S::energies)
+      .def(
+          "array",
+          [](S& self, const std::string& name) {
+            auto [values, components] = self.measured(name);
+            const auto rows = static_cast<py::ssize_t>(values.size()) / components;
+            const py::array flat = owned(std::move(values));
+            return components == 1 ? flat : flat.reshape({rows, py::ssize_t{components}});
+          },
+          py::arg("name"))
+      .def("save", &S::save)
+      .def("restore", &S::restore, py::arg("state"))
+      .def_property_readonly(
+          "bone_frames",
+          [](const S& self) {
+            const auto frames = self.bone_frames();
+            py::array_t<double> all({frames.size(), std::size_t{4}, std::size_t{4}});
+            for (std::size_t i = 0; i < frames.size(); ++i)
+              std::copy(frames[i].begin(), frames[i].end(), all.mutable_data() + 16 * i);
+            return all;
+          })
+      .def_property_readonly("reactions",
+                             [](S& self) {
+                               const auto rows = self.reactions();
+                               py::array_t<double> all({rows.size(), std::size_t{6}});
+                               for (std::size_t i = 0; i < rows.size(); ++i)
+                                 std::copy(rows[i].begin(), rows[i].end(),
+                                           all.mutable_data() + 6 * i);
+                               return all;
+                             })
       .def_property_readonly("time", &S::time_told)
       .def_property_readonly("steps", &S::steps_told)
       .def_property_readonly("bones", &S::bones)

@@ -24,6 +24,7 @@
 #include <sinew/repair/diagnosis.h>
 #include <sinew/repair/read_surface.h>
 #include <sinew/rig/motion.h>
+#include <sinew/rig/posing.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/export_run.h>
 #include <sinew/run/frame_writer.h>

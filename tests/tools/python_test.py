@@ -157,7 +157,7 @@ class Made(unittest.TestCase):
         expected = (self.body.points[top] - [0, 0, 0.1]) @ numpy.array([[1, 0, -1], [0, 2 ** 0.5, 0], [1, 0, 1]]) \
             / 2 ** 0.5 + [0, 0, 0.1]
         self.assertLess(abs(simulation.positions[top] - expected).max(), 0.01)
-        for wrong, part in (({"none": (1, 0, 0, 0)}, "simulation.bones"), ({"high": (0, 0, 0, 0)}, "quaternion")):
+        for wrong, part in (({"none": (1, 0, 0, 0)}, "take one of low, high"), ({"high": (0, 0, 0, 0)}, "quaternion")):
             with self.assertRaises(sinew.Error) as raised:
                 simulation.set_pose(wrong)
             self.assertIn(part, str(raised.exception))

@@ -43,6 +43,33 @@ Points positions_of(const Particles& particles) {
   return positions;
 }
 
+namespace {
+
+template <class Value>
+void find_by_id(const Particles& particles, Points& found, const Value& value) {
+  found.resize(particles.size());
+  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      found[static_cast<std::size_t>(particles.id[i])] = value(i);
+  });
+}
+
+}  // namespace
+
+Points positions_by_id(const Particles& particles) {
+  Points positions;
+  find_positions_by_id(particles, positions);
+  return positions;
+}
+
+void find_positions_by_id(const Particles& particles, Points& positions) {
+  find_by_id(particles, positions, [&](std::size_t i) { return particles.position(i); });
+}
+
+void find_velocities_by_id(const Particles& particles, Points& velocities) {
+  find_by_id(particles, velocities, [&](std::size_t i) { return particles.velocity(i); });
+}
+
 std::uint64_t state_hash(const Particles& particles) {
   const std::size_t n = particles.size();
   std::vector<std::uint32_t> at(n);

@@ -65,6 +65,11 @@ Particles particles_at(const Points& positions, double radius, double mass);
 /// Positions (n x 3, m) in the order of `particles`, not the written one.
 Points positions_of(const Particles& particles);
 
+/// Positions and velocities by id (n x 3, m and m/s), in parallel.
+Points positions_by_id(const Particles& particles);
+void find_positions_by_id(const Particles& particles, Points& positions);
+void find_velocities_by_id(const Particles& particles, Points& velocities);
+
 /// A hash of every bit of positions and velocities in the written order.
 std::uint64_t state_hash(const Particles& particles);
 

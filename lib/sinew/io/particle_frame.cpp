@@ -164,20 +164,6 @@ std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, const Points&
 
 }  // namespace
 
-Points positions_by_id(const Particles& particles) {
-  Points positions;
-  find_positions_by_id(particles, positions);
-  return positions;
-}
-
-void find_positions_by_id(const Particles& particles, Points& positions) {
-  positions.resize(particles.size());
-  parallel_for(particles.size(), particles_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      positions[static_cast<std::size_t>(particles.id[i])] = particles.position(i);
-  });
-}
-
 Dataset particles_dataset(const ParticleFrame& frame, Points positions, Moment moment,
                           const ParticleSelection& selection) {
   assert(frame.now.id.size() == positions.size() && frame.rest.size() == positions.size());

@@ -45,10 +45,6 @@ struct ParticleSelection {
   std::vector<std::string_view> arrays;  ///< beside the points; empty: all
 };
 
-/// Positions by id (n x 3, m), in parallel.
-Points positions_by_id(const Particles& particles);
-void find_positions_by_id(const Particles& particles, Points& positions);
-
 /// `positions`: of the frame's particles, by id. The array "force" is the sum of all forces. What
 /// the frame refers to and the ids of the selection must outlive the dataset.
 Dataset particles_dataset(const ParticleFrame& frame, Points positions, Moment moment,

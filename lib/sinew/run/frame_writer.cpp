@@ -192,29 +192,15 @@ void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const dou
                                                                  : words_asked_for(output, body_);
   arrays_ = requested_arrays(words);
   if (arrays_.empty() && !output.bonds && !probe_table_) return;
-  RestInput input = measured_body(body_.material, body_.skeleton, body_.factors);
-  input.law.volume_stiffness_of = body_.local.volume;
-  input.positions = body_.rest;
-  input.surface = surface_;
-  const auto bones = bones_of_particles(body_);
-  input.bone.assign(bones.begin(), bones.end());
-  input.law.has_muscles = has_muscles(body_);
-  measured_ = rest_body(std::move(input));
+  measured_.emplace(body_, surface_);
   if (output.bonds)
     bond_series_.emplace(folder_, format_of(output, "bonds", body_.material.pair.r),
                          each(every_, kept));
   try {
-    arrays_ = defined_arrays(*measured_, measured_at_rest(), words);
+    arrays_ = defined_arrays(measured_->rest(), measured_->at_rest(), words);
   } catch (const Error& error) {
     throw error.with_context({"output.arrays"});
   }
-}
-
-FrameState FrameWriter::measured_at_rest() const {
-  FrameState state = state_at_rest(*measured_);
-  state.bond_rest = first_bond_rest(*measured_);
-  if (measured_->law.has_muscles) state.muscle_stress.assign(body_.rest.size(), Mat3::Zero());
-  return state;
 }
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
@@ -251,25 +237,20 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
   frame.forces = simulation.take_forces();
   frame.particles = simulation.take_particles();
   find_positions_by_id(frame.particles, frame.positions);
-  if (measured_ && (frame.with_particles || probe_table_)) take_forces(simulation, frame);
+  frame.measured = FrameState();
+  if (measured_ && (frame.with_particles || probe_table_)) {
+    frame.measured.positions = frame.positions;
+    for (const BonePose& bone : frame.pose) frame.measured.bones.push_back(bone.frame);
+    measured_->take_forces(simulation, time, frame.measured);
+  }
   for (const auto axis : {&Particles::x, &Particles::y, &Particles::z})
     frame.particles.*axis = std::vector<double>();  // {} would keep their memory
   return frame;
 }
 
-/// What the forces between particles depend on beside their positions.
-void FrameWriter::take_forces(Simulation& simulation, Moved& frame) const {
-  if (measured_->law.bonds_change)
-    frame.bond_rest = simulation.rest_of_bonds(measured_->shape.neighbors, measured_->second);
-  if (!measured_->law.has_muscles) return;
-  const Muscles& muscles = body_.world->muscles;
-  frame.muscle_stress =
-      muscle_stress(muscles, activations_at(muscles, frame.moment.time), frame.positions);
-}
-
 void FrameWriter::write(Moved& frame) {
   if (support_table_) write_supports(frame);
-  const FrameState state = measured_ ? state_of(frame) : FrameState();
+  const FrameState& state = frame.measured;
   if (probe_table_) write_probes(frame, state);
   if (frame.with_particles) write_particles(frame, state);
   write_surfaces(frame);
@@ -296,18 +277,9 @@ void FrameWriter::write_supports(const Moved& frame) {
   support_series_->add(supports_dataset(frames, frame.moment));
 }
 
-FrameState FrameWriter::state_of(Moved& frame) {
-  FrameState state;
-  state.positions = frame.positions;
-  for (const BonePose& bone : frame.pose) state.bones.push_back(bone.frame);
-  state.bond_rest = std::move(frame.bond_rest);
-  state.muscle_stress = std::move(frame.muscle_stress);
-  return state;
-}
-
 void FrameWriter::write_probes(const Moved& frame, const FrameState& state) {
   static constexpr std::array<std::string_view, 2> tensors = {"strain", "stress"};
-  const std::vector<Column> found = particle_arrays(*measured_, state, tensors);
+  const std::vector<Column> found = particle_arrays(measured_->rest(), state, tensors);
   const Points& world = frame.forces.world;
   Points force(world.size());
   for (std::size_t i = 0; i < world.size(); ++i)
@@ -320,9 +292,9 @@ void FrameWriter::write_probes(const Moved& frame, const FrameState& state) {
 void FrameWriter::write_particles(Moved& frame, const FrameState& state) {
   std::vector<Column> requested;
   if (measured_) {
-    requested = particle_arrays(*measured_, state, arrays_);
+    requested = particle_arrays(measured_->rest(), state, arrays_);
     if (bond_series_)
-      bond_series_->add(bonds_dataset(bond_values(*measured_, state), frame.positions,
+      bond_series_->add(bonds_dataset(bond_values(measured_->rest(), state), frame.positions,
                                       selection_.ids, frame.moment));
   }
   const Forces& forces = frame.forces;

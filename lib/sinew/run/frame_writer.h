@@ -26,9 +26,9 @@
 #include <sinew/io/particle_frame.h>
 #include <sinew/io/point_cache.h>
 #include <sinew/io/series.h>
-#include <sinew/metrics/rest_body.h>
 #include <sinew/rig/skin.h>
 #include <sinew/rig/skinning.h>
+#include <sinew/run/particle_meter.h>
 #include <sinew/run/probe_table.h>
 #include <sinew/run/support_table.h>
 #include <sinew/scene/prepare.h>
@@ -90,8 +90,7 @@ class FrameWriter {
     Forces forces;
     std::shared_ptr<const Grouping> grouping;
     std::vector<std::int32_t> broken_bonds;
-    std::vector<double> bond_rest;    ///< where bonds change
-    std::vector<Mat3> muscle_stress;  ///< by id, where stress is written
+    FrameState measured;  ///< what arrays and probes are measured of
     Energies energies;
     Pose pose;
     BoneReactions reactions;
@@ -111,16 +110,12 @@ class FrameWriter {
   void begin_export(std::size_t kept, SurfaceLook look);
   void begin_arrays(const OutputSettings& output, std::span<const double> kept,
                     StrainInFrames strain);
-  FrameState measured_at_rest() const;
   Moved take(Simulation& simulation, double time);
   void write(Moved& frame);
-  void take_forces(Simulation& simulation, Moved& frame) const;
   void write_particles(Moved& frame, const FrameState& state);
   void write_surfaces(const Moved& frame);
   void write_supports(const Moved& frame);
   void write_probes(const Moved& frame, const FrameState& state);
-  /// What is measured, of which it takes all but the positions.
-  static FrameState state_of(Moved& frame);
   std::vector<Series*> all_series();
   void begin_checksums();
   void list_new_frames();
@@ -142,10 +137,10 @@ class FrameWriter {
   BoneWeights vertex_weights_;  ///< for skinning alone; empty where it is not requested
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;
-  SurfaceLook look_;                      ///< of the exported surface
-  std::vector<std::string_view> arrays_;  ///< additional ones
-  std::optional<RestBody> measured_;      ///< which these and bonds are computed from, if any
-  std::optional<Series> bond_series_;     ///< where the scene requests it
+  SurfaceLook look_;                       ///< of the exported surface
+  std::vector<std::string_view> arrays_;   ///< additional ones
+  std::optional<ParticleMeter> measured_;  ///< which these and bonds are computed from, if any
+  std::optional<Series> bond_series_;      ///< where the scene requests it
   std::optional<Checksums> checksums_;
   std::vector<std::size_t> listed_;  ///< frames of each series whose checksums are
   std::atomic<int> written_ = 0;

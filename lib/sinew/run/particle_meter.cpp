@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/particle_meter.h>
+
+#include <sinew/core/particles.h>
+#include <sinew/metrics/pair_forces.h>
+#include <sinew/metrics/particle_values.h>
+#include <sinew/run/run_files.h>
+#include <sinew/scene/prepare.h>
+#include <sinew/stepping/simulation.h>
+#include <sinew/world/muscles.h>
+#include <sinew/world/world.h>
+
+namespace sinew {
+namespace {
+
+RestBody measured_rest(const Body& body, const Triangles& surface) {
+  RestInput input = measured_body(body.material, body.skeleton, body.factors);
+  input.law.volume_stiffness_of = body.local.volume;
+  input.law.has_muscles = has_muscles(body);
+  input.positions = body.rest;
+  input.surface = surface;
+  input.bone = bones_of_particles(body);
+  return rest_body(std::move(input));
+}
+
+}  // namespace
+
+ParticleMeter::ParticleMeter(const Body& body, const Triangles& surface)
+    : world_(body.world), rest_(measured_rest(body, surface)) {}
+
+FrameState ParticleMeter::at_rest() const {
+  FrameState state = state_at_rest(rest_);
+  state.bond_rest = first_bond_rest(rest_);
+  if (rest_.law.has_muscles) state.muscle_stress.assign(rest_.particles(), Mat3::Zero());
+  return state;
+}
+
+void ParticleMeter::take_forces(Simulation& simulation, double time, FrameState& state) const {
+  if (rest_.law.bonds_change)
+    state.bond_rest = simulation.rest_of_bonds(rest_.shape.neighbors, rest_.second);
+  if (!rest_.law.has_muscles) return;
+  const Muscles& muscles = world_->muscles;
+  state.muscle_stress = muscle_stress(muscles, activations_at(muscles, time), state.positions);
+}
+
+FrameState ParticleMeter::now(Simulation& simulation) const {
+  FrameState state;
+  state.time = simulation.time();
+  state.positions = positions_by_id(simulation.particles());
+  for (const BonePose& bone : simulation.pose()) state.bones.push_back(bone.frame);
+  take_forces(simulation, state.time, state);
+  return state;
+}
+
+std::vector<Column> ParticleMeter::arrays(Simulation& simulation, std::string_view words) const {
+  return particle_arrays(rest_, now(simulation), defined_arrays(rest_, at_rest(), words));
+}
+
+}  // namespace sinew

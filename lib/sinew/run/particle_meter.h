@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Strain, stress and the other arrays of a body's particles, while it is stepped.
+//
+//     const ParticleMeter meter(prepared.body, prepared.surface.triangles);
+//     const std::vector<Column> found = meter.arrays(simulation, "stress, strain");
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <sinew/body/body.h>
+#include <sinew/core/dataset.h>
+#include <sinew/core/triangles.h>
+#include <sinew/metrics/frame.h>
+#include <sinew/metrics/rest_body.h>
+
+namespace sinew {
+
+class Simulation;
+
+class ParticleMeter {
+ public:
+  /// `surface`: of the body at rest. Throws bad input where it has no area.
+  ParticleMeter(const Body& body, const Triangles& surface);
+
+  const RestBody& rest() const { return rest_; }
+  /// The body at rest.
+  FrameState at_rest() const;
+  /// The present moment, without velocities and surface.
+  FrameState now(Simulation& simulation) const;
+  /// Takes what forces depend on beside positions: bonds and muscles at `time` (s).
+  void take_forces(Simulation& simulation, double time, FrameState& state) const;
+  /// The arrays that are named, in words as output.arrays has them, at the present moment: by id,
+  /// in the units of requestable_arrays(). Throws bad input for one that the body has not.
+  std::vector<Column> arrays(Simulation& simulation, std::string_view words) const;
+
+ private:
+  std::shared_ptr<const World> world_;
+  RestBody rest_;
+};
+
+}  // namespace sinew
