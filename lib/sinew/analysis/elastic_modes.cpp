@@ -26,7 +26,7 @@ constexpr int max_rounds = 60, order = 3;            // of the polynomials to be
 constexpr double converged = 1e-4;                   // of eigenvalues
 constexpr double floppy = 1e-3;  // share of a smooth mode's w^2 below which one is no mode
 
-/// Of the particles' places, those of the largest part that hangs together.
+/// Returns the indices of the particles in the largest part that hangs together.
 std::vector<std::size_t> largest_part(const Body& body) {
   const NeighborLists near = neighbors_within(body.rest, rest_neighbor_range(body.material.pair.r));
   UnionFind sets(body.rest.size());
@@ -200,7 +200,7 @@ class ModeFinder {
   Vector squared_;
 };
 
-/// Of a body small enough; `mass` in proportion to the shares, or the same for all.
+/// Finds the modes of a body small enough; masses in proportion to the shares, or all the same.
 ElasticModes modes_of(const Body& whole, bool by_share) {
   const Body body = part_of(whole, largest_part(whole));
   const auto n = static_cast<Eigen::Index>(body.rest.size());

@@ -18,7 +18,7 @@ struct ElasticModes {
   Eigen::MatrixXd rates;    ///< of eq. 2 between them for C = 1 kg/s, 1/s
 
   bool empty() const { return squared.size() == 0; }
-  /// Of the lowest mode, undamped, rad/s.
+  /// Returns the frequency of the lowest mode, undamped, rad/s.
   double frequency() const;
   /// The damping ratio that the lowest mode has for a constant C of eq. 2 (kg/s): of the eigenvalue
   /// that begins there and follows C, among all these modes.
@@ -27,7 +27,7 @@ struct ElasticModes {
   double damping_for(double ratio) const;
 };
 
-/// Of the body's largest connected part.
+/// Finds the modes of the body's largest connected part.
 ElasticModes elastic_modes(const Body& body);
 
 /// The same body of fewer particles, `times` as large, in FCC packing along its axes, without

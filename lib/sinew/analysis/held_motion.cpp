@@ -125,7 +125,7 @@ Motion6 free_of(const Part& part) {
   return motions * held.eigenvectors().col(0);
 }
 
-/// Of length 1, the largest component positive.
+/// Scales to length 1, with the largest component positive.
 Vec3 direction_of(const Vec3& v) {
   Eigen::Index largest = 0;
   v.cwiseAbs().maxCoeff(&largest);

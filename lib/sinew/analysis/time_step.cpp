@@ -138,7 +138,7 @@ constexpr double margin = 0.99;              // the iteration converges from bel
 constexpr double smallness = 1e-6;           // of displacements, in radii
 constexpr std::size_t max_tried = 100'000;   // beyond, starting would take many seconds
 
-/// Of all particles, a column each.
+/// Motions of all particles, a column each.
 using Motions = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// The forces about rest, linearized for small motions.
@@ -224,7 +224,7 @@ double power_step_limit(const Body& body, const WorldLoad& world) {
       if (!(next.cwiseAbs().maxCoeff() > 0)) return step;  // nothing holds the particles
       u = scaled(next);
     }
-    // Of the mode found: a t^2 + b t for a step t times as long.
+    // Share of the mode found: a t^2 + b t for a step t times as long.
     const double whole = share(step), half = share(step / 2);
     const double a = 2 * whole - 4 * half, b = 4 * half - whole;
     step *= 2 / (b + std::sqrt(b * b + 4 * a));

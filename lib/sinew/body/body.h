@@ -33,7 +33,7 @@ struct Body {
   std::vector<double> share = {};
   std::vector<double> stiffness = {};  ///< of the material there over `material`'s; empty: 1 each
   std::vector<double> density = {};    ///< the same of the density
-  /// Of each particle, its place in the scene's list of materials, from 1, or 0; empty: 0 each.
+  /// Place of each particle's material in the scene's list, from 1, or 0; empty: 0 each.
   std::vector<std::int32_t> material_number = {};
   LocalStrength local = {};  ///< of the materials of its parts
   BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
@@ -41,11 +41,11 @@ struct Body {
   std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
 };
 
-/// Of one of its particles, by id, kg; `common`: of one with the material's density.
+/// Returns the mass of particle `id`, kg; `common`: that of one with the material's density.
 inline double mass_of(const Body& body, std::size_t id, double common) {
   return body.density.empty() ? common : common * body.density[id];
 }
-/// Of all of them.
+/// Returns the mass of all of them.
 double total_mass(const Body& body, double common);
 /// The material with the mass of the lightest particle.
 Material lightest(const Body& body);

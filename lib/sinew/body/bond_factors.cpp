@@ -20,8 +20,8 @@ constexpr std::size_t bonds_inside = 18;
 constexpr double min_factor = 0.1, max_factor = 4;
 constexpr double max_share = 2;
 constexpr double min_difference = 1e-3;  // of a share from that inside
-// Of the least squares: hardly any in a lattice. Elsewhere exact solutions ask for bonds that push
-// apart, and a body with factors this near to 1 is stiffer.
+// Regularization of the least squares: hardly any in a lattice. Elsewhere exact solutions ask for
+// bonds that push apart, and a body with factors this near to 1 is stiffer.
 constexpr double regularization = 1e-6 / 18, irregular_regularization = 3e-2 / 18;
 // w^2 of modes at edges over that of waves through the largest weight, by power iteration on cubes
 // and turned ones, for Poisson's ratios up to 0.49.
@@ -135,7 +135,7 @@ class SurfaceBonds {
   bool is_special(std::size_t i) const {
     return asks(i) || (!stiffness_.empty() && stiffness_[i] != 1);
   }
-  /// Of the material between two particles.
+  /// Returns the stiffness of the material between two particles.
   double stiffness_between(std::size_t i, std::size_t j) const {
     if (stiffness_.empty()) return 1;
     return 2 / (1 / stiffness_[i] + 1 / stiffness_[j]);

@@ -21,16 +21,16 @@ namespace sinew {
 /// Neighbors at rest within this are bonded where second neighbors are.
 inline constexpr double second_neighbor_range = 3.1;  // in radii: the third are at 3.46
 
-/// Of surfaces in any direction of the packing, what BondFactors::stiffest comes to.
+/// BondFactors::stiffest of surfaces in any direction of the packing.
 inline constexpr double stiffest_of_rough_surfaces = 7.2;
 
-/// By particles, only of those with other factors than 1.
+/// Factors on the bonds of those particles alone that have others than 1.
 struct BondFactors {
   std::vector<std::uint32_t> particle;  ///< ids, ascending
   std::vector<std::uint32_t> first;     ///< of each, its first bond
   std::vector<std::uint32_t> neighbor;  ///< by bond, an id
   std::vector<double> factor;           ///< by bond
-  /// By id, how stiffly each keeps its volume (volume_weights.h); empty: volume_weight() of its
+  /// Weight of each particle's volume (volume_weights.h), by id; empty: volume_weight() of its
   /// neighbors, where volumes are kept.
   std::vector<double> volume_weight;
   /// No sum of the bonds' n n^T around a particle, times their factors and stiffness over k, has a
@@ -44,18 +44,18 @@ struct BondFactors {
     std::span<const double> factor;
 
     bool empty() const { return neighbor.empty(); }
-    /// Of the bond with that id.
+    /// Returns the factor of the bond with particle `id`.
     double at(std::uint32_t id) const;
   };
   /// Empty where all factors are 1.
   Row of(std::uint32_t id) const;
 };
 
-/// Of particles at `rest` (m). `share`: the volume of the body around each particle over that of
-/// one inside; `stiffness`: that of the material there over the body's, of which a bond has the
-/// harmonic mean, as springs in series; empty: 1 each. `volume`: K_v there, Pa; empty: the
-/// material's. In parallel, the same for any number of threads. None without bonds of second
-/// neighbors, but for the weights of volumes that are kept.
+/// Finds the factors of particles at `rest` (m). `share`: the volume of the body around each
+/// particle over that of one inside; `stiffness`: that of the material there over the body's, of
+/// which a bond has the harmonic mean, as springs in series; empty: 1 each. `volume`: K_v there,
+/// Pa; empty: the material's. In parallel, the same for any number of threads. None without bonds
+/// of second neighbors, but for the weights of volumes that are kept.
 BondFactors bond_factors(const Points& rest, const Material& material,
                          const std::vector<double>& share,
                          const std::vector<double>& stiffness = {},

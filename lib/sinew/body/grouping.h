@@ -18,17 +18,17 @@ enum class Layer : std::uint8_t { free, rim, shell, core };
 struct Grouping {
   std::vector<std::int32_t> group;  ///< by particle id; -1: free
   std::vector<Layer> layer;         ///< by particle id
-  /// By particle id: 1 within a group where forces are not zero, but follow from its motion.
+  /// Marks by particle id: 1 within a group where forces are not zero, but follow from its motion.
   std::vector<std::uint8_t> skin;
-  /// By particle id: the half-plane in which it is, counted from the outside of its group, times 6,
-  /// and on which of the group's sides; 0 in cores. Next to each other in memory, those of a face
-  /// are neighbors of each other and of the next half-plane's in rows.
+  /// Half-plane of each particle, by id, counted from the outside of its group, times 6, plus the
+  /// side of the group; 0 in cores. Next to each other in memory, those of a face are neighbors of
+  /// each other and of the next half-plane's in rows.
   std::vector<std::uint8_t> face;
   std::vector<std::size_t> sizes;   ///< particles of each group
   std::vector<std::uint8_t> cubic;  ///< by group: 1 where it moves by cubics
 
   std::size_t size() const { return sizes.size(); }
-  /// By particle id: 0 free, 1 on the rim, 2 within.
+  /// Returns levels by particle id: 0 free, 1 on the rim, 2 within.
   std::vector<std::int32_t> levels() const;
   std::size_t grouped() const;  ///< particles
   std::size_t inside() const;   ///< of the shells and cores

@@ -13,7 +13,7 @@ class EnergyLedger {
  public:
   explicit EnergyLedger(double step) : step_(step), last_(step) {}
 
-  /// Of the steps that follow, s.
+  /// Sets the size of the steps that follow, s.
   void set_step(double step) { step_ = step; }
 
   /// Adds a step that began with this power of the bones and this loss (W); trapezoidal rule for

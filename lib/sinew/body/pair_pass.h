@@ -21,7 +21,7 @@ inline CellGrid cells_of(const Particles& particles, double range) {
   return {particles.x, particles.y, particles.z, range};
 }
 
-/// From j to i, seen from i. Two coincident particles separate along x, the lower id to the left.
+/// Points from j to i. Two coincident particles separate along x, the lower id to the left.
 inline Vec3 direction_from(const Particles& particles, const Vec3& offset, double d, std::size_t i,
                            std::size_t j) {
   return d > 0 ? Vec3(offset / d) : Vec3(particles.id[i] < particles.id[j] ? -1 : 1, 0, 0);

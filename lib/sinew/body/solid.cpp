@@ -27,12 +27,13 @@ std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
   return found != last && *found == j ? static_cast<std::uint32_t>(found - begin) : none;
 }
 
-/// Of a whole bond; of a pair whose bond broke.
+/// Returns the energy of a whole bond.
 double energy_of_bond(const Branches& branches, std::size_t entry, const BondSpring& spring,
                       double d) {
   const double longer = d - spring.length;
   return spring.stiffness / 2 * longer * longer + branches.energy(spring, entry, d);
 }
+/// Returns the energy of a pair whose bond broke.
 double energy_of_contact(const PairForce* contact, double d) {
   if (contact == nullptr || d >= 2 * contact->r) return 0;
   return contact->potential(d) - contact->potential(2 * contact->r);
@@ -109,7 +110,7 @@ bool remembers_neighbors(const Material& material) { return law_of(material).has
 
 namespace {
 
-/// Of particles in their order.
+/// Puts the values into the order of the particles.
 LocalStrength in_order(const LocalStrength& local, std::span<const std::int32_t> id) {
   LocalStrength ordered;
   for (const auto list : {&LocalStrength::volume, &LocalStrength::breaking, &LocalStrength::yield})
@@ -190,7 +191,7 @@ void Solid::find_volumes(const Particles& particles) {
   });
 }
 
-/// Of its own volume and those of its neighbors.
+/// Adds up the forces of its own volume and those of its neighbors.
 Vec3 Solid::volume_force(std::size_t i) const {
   Vec3 force = Vec3::Zero();
   for (const std::uint32_t j : bonds_.nearest.neighbors.of(i))

@@ -92,9 +92,9 @@ class BondRest {
   /// Neighbors at rest by id, ascending: the nearest ones and the second ones (none: empty).
   BondRest(const NeighborLists& nearest, const NeighborLists& second);
 
-  /// Of one direction of a bond that is whole, m. What is never set is broken.
+  /// Sets the length of one direction of a whole bond, m. What is never set is broken.
   void set(std::int32_t i, std::int32_t j, bool nearest, double length);
-  /// By entry of the nearest ones, then of the second ones, m; 0 once broken.
+  /// Takes the lengths of the nearest ones, by entry, then of the second ones, m; 0 once broken.
   std::vector<double> take() { return std::move(length_); }
 
  private:
@@ -112,7 +112,7 @@ class Solid {
   Solid(const Material& material, Points rest, std::span<const std::int32_t> id = {},
         const BondFactors& factors = {}, const LocalStrength& local = {});
 
-  /// Of its bonds: what follows is of the step that began there last.
+  /// Returns the branches of its bonds: what follows is of the step that began there last.
   MaxwellBranches& branches() { return branches_; }
   const MaxwellBranches& branches() const { return branches_; }
 
@@ -134,8 +134,8 @@ class Solid {
   /// Throws bad input where they are not this solid's.
   std::vector<double> rest_lengths() const;
   void restore(const std::vector<double>& rest_length);
-  /// Of an entry of bonds().nearest or .second that is whole, the length at which it pulls nothing
-  /// as long as its branches stay, m.
+  /// Returns the length (m) at which a whole entry of bonds().nearest or .second pulls nothing as
+  /// long as its branches stay.
   double free_length(bool nearest, std::uint32_t entry) const;
 
  private:

@@ -28,7 +28,7 @@ struct Stepping {
 // faster than several bonds at once is only an unstable run.
 inline constexpr double max_radii_per_step = 0.25;
 
-/// Of an interval, before they are divided.
+/// Steps of an interval before they are divided.
 struct WholeSteps {
   int count = 0;
   double step = 0;  ///< s

@@ -24,15 +24,15 @@ namespace sinew {
 /// w of particles of `radius` (m) with that A (m^2), before any takes over from others.
 double volume_weight(const Mat3& A, double radius);
 
-/// That of each particle at `rest` (m).
+/// Returns w of each particle at `rest` (m).
 std::vector<double> own_volume_weights(const Points& rest, double radius);
 
 /// No particle has more than this many times the weight of one inside: 2, or with which waves take
 /// as short a step as modes at surfaces do anyway.
 double max_volume_weight(const Material& material);
 
-/// Of particles at `rest` (m), with `share` as in bond_factors(). Where second neighbors have no
-/// bonds, none takes over.
+/// Returns the weights of particles at `rest` (m), with `share` as in bond_factors(). Where second
+/// neighbors have no bonds, none takes over.
 std::vector<double> volume_weights(const Points& rest, const Material& material,
                                    const std::vector<double>& share);
 

@@ -48,7 +48,7 @@ std::span<const std::string_view> requestable_arrays();
 /// for any other name, with the nearest one.
 std::vector<std::string_view> frame_arrays(std::string_view words);
 
-/// Those that a text names, in the order of the table, each once: names with commas or spaces
+/// Picks those that a text names, in the order of the table, each once: names with commas or spaces
 /// between them, or "all". Throws bad input for any other, with the nearest name.
 std::vector<std::string_view> requested_arrays(std::string_view words);
 

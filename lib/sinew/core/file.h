@@ -35,7 +35,7 @@ class NewFile {
   void write(const void* bytes, std::size_t count);  ///< at the end; throws not written
   /// Makes the file longer by `count` bytes, which write_at() then fills; where they begin.
   std::uint64_t extend(std::uint64_t count);
-  /// From several threads. Throws not written.
+  /// Writes at `place`, also from several threads. Throws not written.
   void write_at(std::uint64_t place, const void* bytes, std::size_t count) const;
   /// Moves it to its place. Throws not written.
   void finish(Durability durability = Durability::cached);

@@ -15,7 +15,7 @@ struct JsonExtent {
   std::int64_t values = 0;  ///< number of values, or one more
 };
 
-/// Of any text; meaningful where it is JSON.
+/// Measures any text; meaningful where it is JSON.
 JsonExtent json_extent(std::string_view text);
 
 /// The value of a JSON text that sinew wrote, as nlohmann's type `Json`; discarded where the text

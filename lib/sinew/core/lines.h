@@ -45,7 +45,7 @@ struct LineAllocator {
 
  private:
   static bool is_large(std::size_t n) { return n * sizeof(T) >= large; }
-  /// Of a page, another one for each array.
+  /// Picks a line of a page, another one for each array.
   static std::size_t next_line() {
     static std::atomic<std::size_t> count{0};
     constexpr std::size_t apart = 5;

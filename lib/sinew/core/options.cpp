@@ -39,7 +39,7 @@ Placement placement_of(const SkeletonOptions& skeleton) {
 
 namespace {
 
-/// By a multiple of 90 degrees, without rounding.
+/// Turns by a multiple of 90 degrees, without rounding.
 Mat3 quarter_turns(int axis, double angle) {
   const int x = (axis + 1) % 3, y = (axis + 2) % 3;
   Mat3 quarter = Mat3::Zero();

@@ -150,7 +150,7 @@ struct Placement {
   Vec3 operator()(const Vec3& point) const { return scale * (turn * point) + offset; }
 };
 
-/// By unit, scale, up and forward, rotation and offset.
+/// Combines unit, scale, up and forward, rotation and offset.
 Placement placement_of(const BodyOptions& settings);
 Placement placement_of(const SkeletonOptions& settings);
 

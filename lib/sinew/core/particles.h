@@ -35,7 +35,7 @@ constexpr double surely_filled_thickness(double r) { return 2 * std::numbers::sq
 
 /// Pairs closer than this at rest are neighbors: between first (2r) and second (2.83r) shell.
 constexpr double rest_neighbor_range(double r) { return 2.2 * r; }
-/// That a particle has at rest in the closest packings.
+/// Number of neighbors of an inner particle in a closest packing.
 inline constexpr std::size_t max_neighbors_at_rest = 12;
 
 struct Particles {

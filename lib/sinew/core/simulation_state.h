@@ -61,7 +61,7 @@ struct WholeNumbers {
   double traveled = 0;         ///< upper bound since then, m
 };
 
-/// Of a body that is brought to rest at one moment after another.
+/// State of a body that is brought to rest at one moment after another.
 struct RelaxationState {
   std::int64_t at_rest = 0;     ///< moments at which it has been
   std::int64_t iterations = 0;  ///< for the next of them
@@ -73,11 +73,11 @@ struct RelaxationState {
   double unbalanced = 0;        ///< forces in the last iteration that nothing answered, N
 };
 
-/// Of groups of particles that change as the body moves.
+/// State of groups of particles that change as the body moves.
 struct RegroupingState {
   std::int64_t times = 0;  ///< how often they have
   double lost = 0;         ///< energy lost by merging, J
-  /// By bone, since when its joint with its parent has counted as still, s; below 0: it moves.
+  /// Moment (s) from which each bone's joint with its parent counts as still; below 0: it moves.
   std::vector<double> still_since = {};
 };
 
@@ -100,22 +100,22 @@ struct SimulationState {
   WholeNumbers whole_numbers;        ///< of single precision
   double mean_when_sorted = 0;       ///< length of lists above which sorting is tried again
   std::vector<double> rest_length;   ///< of the reference's bonds, m; 0 once broken
-  // Of lists, where bonds change:
+  // Lists, where bonds change:
   std::vector<std::uint32_t> bonded_lanes;  ///< by entry of the bond lists
   std::vector<double> creep;                ///< of each whole bond, in lengths of the kernel
-  // Of branches of bonds: how far their states are ahead, s, in the end; and of each branch the
+  // Branches of bonds: how far their states are ahead, s, in the end; and of each branch the
   // stretches of its dashpots, in lengths of the kernel, of each whole bond (of cells: m, of all).
   std::vector<double> branch_clocks;
   std::vector<double> branch_stretches;
   RelaxationState relaxation = {};
-  /// Of each group of particles: c, its velocity, F and its rate (column by column).
+  /// Terms of each group: how many, then their coefficients of places (m) and of velocities.
   std::vector<double> groups = {};
   std::vector<std::int32_t> grouping = {};  ///< by particle id, where groups change
   RegroupingState regrouping = {};
-  // Of friction between particles that touch: whose springs, and their stretches, m.
+  // Springs of friction between particles that touch: whose, and their stretches, m.
   std::vector<std::int32_t> sliding_pairs;  ///< two ids each
   std::vector<double> sliding;              ///< three each
-  /// Of each pressure: of its steps, and of each corner the place, m, and its motion in a step, m.
+  /// Steps of each pressure, the places of its corners, m, and their motions in a step, m.
   std::vector<double> pressed = {};
 };
 

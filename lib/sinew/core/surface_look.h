@@ -21,7 +21,7 @@ struct GltfMaterials {
 };
 
 struct SurfaceLook {
-  /// Of consecutive faces in a file; names are empty where it has none.
+  /// Consecutive faces in a file; names are empty where it has none.
   struct Part {
     std::string object, group, material;
     int gltf_material = -1;  ///< index in `gltf`

@@ -80,7 +80,8 @@ double free_of_group(const std::string& folder, const char* limit, const char* u
   return std::max(0.0, most - std::max(0.0, used - of_files));
 }
 
-/// Of all groups above this process, of either version. A container sees its own as the top.
+/// Finds the least left in groups above this process, of either version. A container sees its own
+/// as the top.
 double free_of_groups() {
   std::ifstream groups("/proc/self/cgroup");
   double least = unlimited;

@@ -53,7 +53,7 @@ VolumeMesh second_order(VolumeMesh mesh);
 
 /// The mean of its corners, m.
 Vec3 center_of(const VolumeMesh& mesh, const VolumeElement& element);
-/// Of the flat-sided element on its corners, m^3; negative when inside out.
+/// Returns the volume of the flat-sided element on its corners, m^3; negative when inside out.
 double volume_of(const VolumeMesh& mesh, const VolumeElement& element);
 
 /// The share of each node in a force that is uniform over an element's volume, exact for straight
@@ -82,7 +82,7 @@ std::vector<ElementFace> boundary_faces(const VolumeMesh& mesh);
 
 // Shape functions.
 
-/// Of each node: its shape function, and the derivatives by the local coordinates.
+/// Shape function of each node, and its derivatives by the local coordinates.
 struct ShapeFunctions {
   std::array<double, max_element_nodes> value = {};
   std::array<Vec3, max_element_nodes> slope = {};

@@ -82,7 +82,7 @@ class Rows {
   RowShape shape_;
 };
 
-/// By id, the place of each particle in the columns of a state.
+/// Finds the place of each particle, by id, in the columns of a state.
 std::vector<std::uint32_t> places_of(const SimulationState& state,
                                      std::span<const std::int32_t> ids) {
   std::vector<std::uint32_t> place(ids.size());
@@ -129,7 +129,7 @@ Error not_a_piece(const fs::path& file) {
   return bad_input(Place{file.string()}, "is no complete piece of a state", "start the run again");
 }
 
-/// Of a scene, refuse_for_engine() says it by name.
+/// Throws bad input; of a scene, refuse_for_engine() says it by name.
 void refuse_unsupported(const Body& body) {
   const Material& material = body.material;
   const char* unknown = body.world ? unknown_to_engines(*body.world) : nullptr;

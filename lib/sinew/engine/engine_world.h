@@ -26,7 +26,8 @@ const char* unknown_to_engines(const World& world);
 /// All of it but the motions.
 World engine_world(const World& world);
 
-/// Of all obstacles, then of all supports, before steps `first` to `last`. Throws not written.
+/// Writes the poses of all obstacles, then of all supports, before steps `first` to `last`. Throws
+/// not written.
 void write_engine_poses(const std::filesystem::path& file, const World& world,
                         const Skeleton& skeleton, const Motion& motion, const StepPlan& plan,
                         std::int64_t first, std::int64_t last);

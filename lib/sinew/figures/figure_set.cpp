@@ -73,7 +73,7 @@ std::vector<std::size_t> FigureSet::moments() const {
   return frames;
 }
 
-/// Of each run, at the time of the first one's frame.
+/// Takes a snapshot of each run, at the time of the first one's frame.
 std::vector<Snapshot> FigureSet::snapshots(std::size_t frame) const {
   const double time = runs_.front()->files().particle_rows[frame].time;
   std::vector<Snapshot> snapshots;

@@ -48,8 +48,8 @@ class FigureSet {
 
   int pictures();  ///< one for each moment; returns their number
   void sheet();    ///< all moments in one picture; of the body as in the paper's figure 4
-  /// Of all frames; of the body, its surface beside its particles. Drawn in turn by this object and
-  /// by `others`: frame i by the one of number i modulo their count, this one first.
+  /// Draws all frames (of the body, its surface beside its particles), in turn with `others`: frame
+  /// i by the one of number i modulo their count, this one first.
   void movie(std::span<const FrameSource> others = {});
   std::size_t movie_frames() const;
   MovieOptions movie_options() const;

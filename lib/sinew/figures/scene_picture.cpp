@@ -43,7 +43,7 @@ std::size_t visible_particle(const DrawnScene& scene) {
   return best;
 }
 
-/// Those of a load that acts on a part of the body: all would hide it.
+/// Returns the particles of a load on a part of the body: all would hide it.
 std::vector<std::uint32_t> loaded_part(const Load& load, const Points& rest) {
   return 2 * load.particles.size() > rest.size() ? std::vector<std::uint32_t>() : load.particles;
 }

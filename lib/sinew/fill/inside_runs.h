@@ -18,8 +18,8 @@ struct InsideRuns {
   int shallowest = 0;               ///< smallest winding number of closed surfaces; below 0 where
                                     ///< one is inside out
   int deepest = 0;                  ///< the largest winding number; above 1 where parts overlap
-  /// Of closed surfaces: the body of each component, -1 for cavities. Components that share an
-  /// inside site are one body. Empty for open ones, where all runs are of body 0.
+  /// Body of each component of closed surfaces, -1 for cavities. Components that share an inside
+  /// site are one body. Empty for open surfaces, where all runs are of body 0.
   std::vector<int> body_of;
   int bodies = 0;
 };
@@ -27,8 +27,8 @@ struct InsideRuns {
 /// The same for any number of threads.
 InsideRuns inside_runs(const Lattice& lattice, const Surface& surface);
 
-/// Of about 4,000 sites all over the lattice, the share whose winding number differs by more than
-/// 0.1 from any integer: 0 for closed surfaces, near 1 where nothing is inside.
+/// Returns the share of about 4,000 sites all over the lattice whose winding number differs by more
+/// than 0.1 from any integer: 0 for closed surfaces, near 1 where nothing is inside.
 double ambiguous_share(const Lattice& lattice, const Surface& surface);
 
 }  // namespace sinew

@@ -17,11 +17,10 @@ struct Moments {
   Vec3 principal() const;  ///< principal moments of inertia, ascending, m^5
 };
 
-/// By sums over tetrahedra from the box's center to the faces. Surfaces without volume have the
-/// box's center.
+/// Sums over tetrahedra from the box's center to the faces: the center of surfaces without volume.
 Moments moments_of(const Triangles& surface);
 
-/// Of particles of `volume` (m^3) each, as balls of that volume.
+/// Sums over particles, as balls of `volume` (m^3) each.
 Moments moments_of(const Particles& particles, double volume);
 
 }  // namespace sinew

@@ -39,7 +39,7 @@ struct Filling {
   std::vector<std::int32_t> neighbors;  ///< number of touching particles; 12 inside a lattice
   /// Volume of the body around each particle over that of one inside; empty: not asked for.
   std::vector<double> share;
-  /// Of the material of each particle over the body's; empty: the same throughout.
+  /// Stiffness of each particle's material over the body's; empty: the same throughout.
   std::vector<double> stiffness;
   FillReport report;
 };

@@ -44,7 +44,7 @@ struct IndexRange {
   int first, last;
 };
 
-/// Those in the interval and 0 .. count - 1, enlarged by a margin above rounding errors.
+/// Returns which of 0 .. count - 1 are in the interval, enlarged by a margin above rounding errors.
 inline IndexRange whole_numbers(const Interval& at, int count) {
   return {static_cast<int>(std::ceil(std::clamp(at.low - 1e-6, 0.0, count + 0.0))),
           static_cast<int>(std::floor(std::clamp(at.high + 1e-6, -1.0, count - 1.0))) + 1};
@@ -119,7 +119,7 @@ class SiteRanges {
       ranges_.push_back(sites);
   }
 
-  /// As runs of body 0, by site, none touching.
+  /// Appends runs of body 0, by site, none touching.
   void append_to(std::vector<Run>& runs, std::size_t row) {
     std::sort(ranges_.begin(), ranges_.end(),
               [](const IndexRange& a, const IndexRange& b) { return a.first < b.first; });

@@ -18,8 +18,8 @@ struct AskedFree {
   std::vector<int> bones = {};     ///< what any of these holds
 };
 
-/// By particle id: 1 stays free. Empty where nothing is asked for. The surface is taken to be a
-/// radius outside of particles of FCC that lack neighbors.
+/// Marks by particle id: 1 stays free. Empty where nothing is asked for. The surface is taken to be
+/// a radius outside of particles of FCC that lack neighbors.
 std::vector<std::uint8_t> kept_free(const Body& body, const AskedFree& asked);
 
 }  // namespace sinew

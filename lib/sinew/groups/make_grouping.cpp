@@ -109,7 +109,7 @@ class LayerFinder {
     return face;
   }
 
-  /// Of particles whose neighbors farther in lie in this direction.
+  /// Returns the face of particles whose neighbors farther in lie in this direction.
   std::uint8_t face_of(const Vec3& inwards) const {
     const Vec3 along = (body_.lattice.transpose() * inwards / r_).array().round();
     int axis = 0;
@@ -135,7 +135,7 @@ class LayerFinder {
     return marks;
   }
 
-  /// Those that are marked and have only neighbors that are.
+  /// Keeps the marks of particles with only marked neighbors.
   std::vector<std::uint8_t> marked_where_all(const std::vector<std::uint8_t>& before) const {
     return marked([&](std::uint32_t i, const auto& near) {
       return before[i] != 0 && all(near, [&](auto j) { return before[j] != 0; });

@@ -45,7 +45,7 @@ struct GroupSizes {
   /// The same for cubic groups; none: there are none.
   std::optional<double> cubic_distance = {};
   std::size_t min_cubic = 16384;  ///< particles of a cubic group
-  /// By particle id: 1 stays free (kept_free.h); empty: none.
+  /// Marks by particle id: 1 stays free (kept_free.h); empty: none.
   std::vector<std::uint8_t> kept_free = {};
 
   std::size_t cubic_from() const { return cubic_distance ? min_cubic : none_cubic; }

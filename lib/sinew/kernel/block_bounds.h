@@ -27,7 +27,7 @@ struct ByPlace {
   }
 };
 
-/// Of a vector of blocks, rounded outwards.
+/// Bounds a vector of blocks, rounded outwards.
 template <class L, class Real>
 SINEW_INLINE void bound_blocks(const ByPlace<Real>& places, std::size_t first,
                                BlockBounds& bounds) {

@@ -56,7 +56,7 @@ struct Bonds {
   Real* flows;           ///< by particle: positive where P is not 0
   FlowLook<Real>* look;  ///< by piece
   Real yield;            ///< squared shear beyond which bonds creep; 0: never
-  /// By particle, where they differ: `yield`; 1 and the strain at which its bonds break. Or null.
+  /// Values by particle, where they differ: `yield`; 1 + the strain at which bonds break. Or null.
   const Real* yield_of;
   const Real* breaking_of;
   Real crept;     ///< share that a step takes of it

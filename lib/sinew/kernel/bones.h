@@ -67,7 +67,7 @@ SINEW_INLINE void taper(typename L::V rho2, typename L::V rho02, typename L::V t
   inward = L::keep(tight, twice * s2 / rho2);
 }
 
-/// Of TwistEnergy, G' and 2 G, in lanes beyond 120 degrees.
+/// Sets G' and 2 G of TwistEnergy in lanes beyond 120 degrees.
 template <class L>
 SINEW_INLINE void fade_twist(typename L::V alpha, typename L::V& slope, typename L::V& twice) {
   using V = typename L::V;

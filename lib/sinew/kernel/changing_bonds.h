@@ -35,7 +35,7 @@ struct StressSums {
   Symmetric<L> stress = spread;
 };
 
-/// Of a piece: FlowLook.
+/// FlowLook of a piece, by lane.
 template <class L>
 struct LookSums {
   typename L::V spare, nearest2, reach = L::all(0), tension = reach;
@@ -201,7 +201,7 @@ template <class L, Shell shell>
   const bool repels = shell == second;  // once it is broken as before
   const auto change = [&](const Bond<L>& bond, std::uint32_t e) {
     const Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, i + bond.difference));
-    // As in the sums, so that a bond that counts as strained there is so here.
+    // Repeats the sums, so that a bond that counts as strained there is so here.
     const V squared = L::pick(bond.mask, squared_distance<L>(apart), law.touching2);
     const V inverse = L::pick(L::less(L::all(0), squared),
                               inverse_length<L, shell, true>(law, squared), L::all(0));

@@ -37,7 +37,7 @@ struct PulledBlocks {
   const Real* at[3];  ///< of all particles
 };
 
-/// Of each axis of some vectors: its sums times each term of the place.
+/// Sums of some vectors times each term of the place, for each axis.
 struct TermSums {
   double sum[3 * cubic_terms];  ///< axis by axis cubic_terms long
 };

@@ -272,7 +272,7 @@ struct BlockBounds {
   float low[bound_axes][blocks_per_piece], high[bound_axes][blocks_per_piece];
 };
 
-/// From what the lists of a piece are made: the pieces near it, ascending, itself included.
+/// Input of a piece's lists: the pieces near it, ascending, itself included.
 template <class Real>
 struct ListInput {
   State<Real> state;
@@ -283,7 +283,7 @@ struct ListInput {
   const BlockBounds* around;  ///< as if each of those near were a block
   float range;
   Coord<Real> center[3];  ///< a place within the piece
-  /// By block of the pieces near it: room for the places of its particles from the center, as four
+  /// Room for the places of particles from the center, by block of the pieces near it, as four
   /// fields of floats, and whether they have been found.
   float* places;
   std::uint8_t* placed;
@@ -319,15 +319,16 @@ struct Functions {
   /// Finds the thrusts of volumes and fibers, which must be known everywhere before a step.
   Work<Real> flow;  ///< of bonds that creep
   Work<Real> strain;
-  /// By PairLaw: finds the shares that pairwise damping needs, before a step.
+  /// Finds the shares that pairwise damping needs, before a step; by PairLaw.
   Work<Real> count[pair_laws];
-  /// By PairLaw and Damping: advances the blocks of the pieces.
+  /// Advances the blocks of the pieces; by PairLaw and Damping.
   Work<Real> step[pair_laws][dampings];
   /// The same: fills `probed` and all of `totals`; moves nothing.
   Work<Real> probe[pair_laws][dampings];
   /// Bytes that Surroundings::forces takes, at 64 byte boundaries.
   std::size_t kept;
-  /// Of groups, by their motions: places and velocities; sums of forces; what bones exert.
+  /// Functions of groups, by their motions: places and velocities; sums of forces; what bones
+  /// exert.
   void (*put[motions])(const PutInput<Real>&);
   /// The largest squared length of a field at the particles.
   double (*largest[motions])(const FieldInput&);
@@ -354,7 +355,7 @@ struct Functions {
 template <class Real>
 Functions<Real> functions_of(InstructionSet set);
 
-// Of each set of instructions, made by kernel.cpp.
+// Functions of each set of instructions, made by kernel.cpp.
 extern const Functions<double> doubles_plain;
 extern const Functions<float> floats_plain;
 #if defined(__x86_64__)

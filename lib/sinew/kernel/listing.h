@@ -196,7 +196,7 @@ class Listing {
   static constexpr int vectors = together * size / L::width, count = together * size;
   using V = typename L::V;
 
-  /// Of the blocks in reverse, with their squares.
+  /// Places of the blocks in reverse, with their squares.
   struct OwnPlaces {
     float x[3][count], square[count], largest = 0;
 

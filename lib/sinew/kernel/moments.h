@@ -29,7 +29,7 @@ struct TermsOf {
   }
 };
 
-/// By place in the block.
+/// Sums by place in the block.
 template <class L, int terms>
 struct MomentSums {
   using Real = typename L::Real;
@@ -75,7 +75,7 @@ void sum_moments(const MomentInput<typename L::Real>& input, TermSums& out) {
   sums.put(out.sum, cubic_terms);
 }
 
-/// Of bones on blocks of one group, times the weights.
+/// Sums up what bones exert on blocks of one group, times the weights.
 template <class L, int terms>
 void pull_blocks(const Step<typename L::Real>& step, const PulledBlocks<typename L::Real>& pulled,
                  PullSums& out) {
@@ -105,7 +105,7 @@ void pull_blocks(const Step<typename L::Real>& step, const PulledBlocks<typename
   out.lost = sum_of<L>(lost);
 }
 
-/// Of what bonds exert on their far ends, times terms of the near ones.
+/// Sums up what bonds exert on their far ends, times terms of the near ones.
 template <class L, int terms>
 void pull_group_bonds(const GroupBonds& bonds, double* sums) {
   using V = typename L::V;

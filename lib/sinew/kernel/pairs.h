@@ -205,7 +205,7 @@ struct Adder {
     }
   }
 
-  /// Of a force alone.
+  /// Adds a force alone.
   template <class Energy>
   SINEW_INLINE void push(typename L::M near, V pull, const Triple<L>& apart, Energy&& energy_of) {
     pull = L::keep(near, pull);

@@ -84,7 +84,7 @@ SINEW_INLINE Triple<L> offset(const Place<L>& a, const Place<L>& b) {
   return {L::difference(a.x, b.x), L::difference(a.y, b.y), L::difference(a.z, b.z)};
 }
 
-/// From a frame's center to the particles, in scene coordinates.
+/// Returns vectors from a frame's center to the particles, in scene coordinates.
 template <class L>
 SINEW_INLINE Triple<L> from_center(const FrameNow<typename L::Real>& frame, const Place<L>& at) {
   const Place<L> center{L::all_coord(frame.center[0]), L::all_coord(frame.center[1]),

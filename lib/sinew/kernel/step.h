@@ -107,7 +107,7 @@ SINEW_INLINE bool is_touched(const Surroundings<Real>& surroundings, std::size_t
   return surroundings.touched != nullptr && surroundings.touched[block] != 0;
 }
 
-/// Of a piece.
+/// Number of Forces<L> of a piece.
 template <class L>
 inline constexpr std::size_t kept_forces =
     blocks_per_piece* Traits<typename L::Real>::block / L::width;
@@ -310,7 +310,7 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
            sum_of<L>(sums.pulled)}};
 }
 
-/// Of parts of a piece after it has moved, but for blocks of groups alone.
+/// Finds the largest speeds in parts of a piece that has moved, but for blocks of groups alone.
 template <class L>
 [[gnu::noinline]] void track_parts(const Step<typename L::Real>& step, std::uint32_t begin,
                                    std::uint32_t end) {

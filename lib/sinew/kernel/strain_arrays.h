@@ -11,7 +11,7 @@ namespace sinew::kernel {
 template <class Real>
 using Thrust = Real* [9];
 
-/// Of the materials that keep their volume, U = K_v V0 w (J - 1)^2 / 2 per particle.
+/// Volumes of the materials that keep them, U = K_v V0 w (J - 1)^2 / 2 per particle.
 template <class Real>
 struct Volumes {
   Real* stiffness;  ///< K_v V0 w; 0 where no volume is kept; null: nowhere
@@ -40,7 +40,7 @@ struct FiberLayer {
   Real* pull[3];               ///< by particle: a S w V0 F t / |F t|^2
 };
 
-/// Of muscles.
+/// Fibers of muscles.
 template <class Real>
 struct Fibers {
   const FiberLayer<Real>* layers;

@@ -44,7 +44,7 @@ Vec3 FixSinew::acceleration(int i) const {
          body_->setup.stepping.gravity;
 }
 
-/// Those of velocity Verlet are half a step ahead.
+/// Adds the half step that velocities of velocity Verlet are behind.
 Vec3 FixSinew::velocity_of(int i) const {
   const bool behind =
       body_->setup.stepping.integrator == Integrator::velocity_verlet && moment_.kicked;

@@ -30,8 +30,8 @@ class FixSinew : public LAMMPS_NS::Fix {
   /// Moves what is held to its place at the present moment.
   void hold();
 
-  /// Of the steps that follow, s. Forces must be those of the present moment, and are obsolete
-  /// afterwards: velocities change where they are half a step behind.
+  /// Sets the size of the steps that follow, s. Forces must be those of the present moment, and are
+  /// obsolete afterwards: velocities change where they are half a step behind.
   void change_step(double step);
   double step() const { return step_; }
 

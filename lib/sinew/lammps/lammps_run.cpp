@@ -233,7 +233,7 @@ class LammpsRun {
     return true;
   }
 
-  /// As write_frame_piece() takes them.
+  /// Collects rows as write_frame_piece() takes them.
   std::vector<PieceRow> rows_of_piece() const {
     const LAMMPS_NS::Atom& atoms = *lammps_.atom;
     std::vector<PieceRow> rows(static_cast<std::size_t>(atoms.nlocal));

@@ -67,7 +67,7 @@ void PairSinew::for_each_pair(Visit&& visit) const {
   }
 }
 
-/// From both sides: each of the two does it for itself.
+/// Visits bonds from both sides: each of the two does it for itself.
 template <class Visit>
 void PairSinew::for_each_bond(Visit&& visit) const {
   if (!law_->has_bonds) return;

@@ -39,7 +39,7 @@ class PairSinew : public LAMMPS_NS::Pair {
 
   Vec3 position(int i) const { return Eigen::Map<const Vec3>(atom->x[i]); }
   Vec3 velocity(int i) const { return Eigen::Map<const Vec3>(atom->v[i]); }
-  /// From j to i. Two coincident particles separate along x, the lower id to the left.
+  /// Points from j to i. Two coincident particles separate along x, the lower id to the left.
   Vec3 direction(const Meeting& pair) const {
     if (pair.d > 0) return pair.offset / pair.d;
     return Vec3(atom->tag[pair.i] < atom->tag[pair.j] ? -1 : 1, 0, 0);

@@ -70,7 +70,7 @@ class BlockState {
   /// Pointers to the first particle; one block before it and one after the last may be read.
   kernel::State<Real> arrays();
 
-  /// By lane of the last block: 1 for a particle, 0 for padding.
+  /// Marks by lane of the last block: 1 for a particle, 0 for padding.
   const Real* live() const { return live_.data(); }
 
   Vec3 position(std::size_t k, const Units& units) const;
@@ -86,7 +86,7 @@ class BlockState {
   Box box(const Units& units, std::size_t grain) const;
 
   MovingColumns<Coord, Real> columns() const;  ///< without the pads
-  /// As many as there are particles.
+  /// Takes as many as there are particles.
   void set_columns(const MovingColumns<Coord, Real>& columns);
 
   /// Puts padding particles, far from everything and from each other, before the first and after

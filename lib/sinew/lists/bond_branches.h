@@ -36,10 +36,10 @@ class BondBranches {
   void put_into(kernel::Bonds<Real>& bonds, double step);
   void advance(double step);
   void scale(double factor);  ///< all lengths
-  /// Of a bond by its place, in its length where it pulls nothing.
+  /// Returns the shift of the length at which a bond, by its place, pulls nothing.
   double shift(std::size_t place) const;
 
-  /// Of the entries, the lanes that are whole.
+  /// Saves the whole lanes of the entries.
   void save(std::span<const kernel::BondEntry> entries, SimulationState& state) const;
   /// Throws bad input where the state has others.
   void restore(std::span<const kernel::BondEntry> entries, const SimulationState& state);

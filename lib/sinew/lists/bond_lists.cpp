@@ -179,7 +179,7 @@ Piece entries_of(const RestNeighbors& of, std::size_t block_size, double unit, s
   return piece;
 }
 
-/// Of all blocks. What it takes to find them is freed before they are joined.
+/// Finds the entries of all blocks. What that takes is freed before they are joined.
 std::vector<Piece> all_entries(const Body& body, std::span<const std::int32_t> id,
                                std::size_t block_size, double unit) {
   const RestNeighbors of(body, id);
@@ -252,7 +252,7 @@ void BondLists<Real>::set_units(const Body& body, std::span<const std::int32_t> 
   set_own(body.factors, id, stiffness_of);
 }
 
-/// Of the bonds of entries that have one by lane.
+/// Sets the stiffness by lane of the bonds of entries that have one.
 template <class Real>
 template <class StiffnessOf>
 void BondLists<Real>::set_own(const BondFactors& factors, std::span<const std::int32_t> id,

@@ -33,7 +33,7 @@ struct BondLists {
   Lines<Real> creep;  ///< entries x block; empty: none creeps
   BondBranches<Real> branches;
   std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
-  /// By particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
+  /// Flow by particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
   std::array<Lines<Real>, 6> flow;
   Lines<Real> flows;
   std::vector<kernel::FlowLook<Real>> look;  ///< by piece; empty: none flows
@@ -55,7 +55,7 @@ struct BondLists {
 
   /// What changes: of each entry the lanes that are whole, what those have crept by, and branches.
   void save(SimulationState& state) const;
-  /// Of the same particles in the same order. Throws bad input where they are not these bonds.
+  /// Restores those of the same particles in the same order. Throws bad input for other bonds.
   void restore(const SimulationState& state);
 
  private:
@@ -64,8 +64,8 @@ struct BondLists {
                const StiffnessOf& stiffness_of);
 };
 
-/// Of particles of `mass` (kg), `id` in the kernel's order. None where no force depends on the
-/// neighbors at rest. Made for lattices: elsewhere each bond is a kind of its own.
+/// Lists bonds of particles of `mass` (kg), `id` in the kernel's order. None where no force depends
+/// on the neighbors at rest. Made for lattices: elsewhere each bond is a kind of its own.
 template <class Real>
 BondLists<Real> bond_lists(const Body& body, double mass, std::span<const std::int32_t> id,
                            const Units& units);

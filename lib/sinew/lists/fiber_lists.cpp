@@ -64,7 +64,7 @@ class LayerMaker {
         strength_(volume_per_particle(body.material.pair.r) * units.time * units.time /
                   (mass * units.length * units.length)) {}
 
-  /// Of the nth fiber of each particle; without slots where no particle has so many.
+  /// Lists the nth fiber of each particle; without slots where no particle has so many.
   Layer make(std::size_t nth) {
     const std::size_t blocks = bonds_.first.size() - 1;
     fibers_.assign(id_.size(), {});

@@ -30,7 +30,7 @@ Box expanded(Box box, double by) {
   return box;
 }
 
-/// Of two velocity fields in a box: it is convex, so one of the corners has the largest.
+/// Finds the largest difference of two velocity fields in a box: it is convex, so a corner has it.
 double largest_difference(const PieceNow& a, const PieceNow& b, const Box& box) {
   const Vec3 first = a.velocity_at(box.min()) - b.velocity_at(box.min());
   const Vec3 spin = a.spin - b.spin, sizes = box.sizes();
@@ -44,7 +44,7 @@ double largest_difference(const PieceNow& a, const PieceNow& b, const Box& box) 
   return std::sqrt(most);
 }
 
-/// That piece among those near one, which ascend, or null.
+/// Finds that piece among those near one, which ascend, or null.
 const NearPieces::Near* found(std::span<const NearPieces::Near> near, std::uint32_t piece) {
   const auto at = std::lower_bound(
       near.begin(), near.end(), piece,
@@ -182,7 +182,7 @@ void NearPieces::find_near(std::size_t piece) {
   });
 }
 
-/// Of approach of two pieces, in the region where particles of both may be within the outer range
+/// Bounds the rate of approach of two pieces where particles of both may be within the outer range
 /// of each other before the next survey.
 float NearPieces::rate_between(std::size_t piece, std::size_t near) const {
   const PieceNow &one = pieces_[piece], &other = pieces_[near];

@@ -92,7 +92,7 @@ class NearPieces {
 
   /// The pieces near one, itself included, ascending.
   std::vector<std::uint32_t> of(std::size_t piece) const;
-  /// Those that are not bound to it.
+  /// Returns those that are not bound to it.
   std::span<const Near> others(std::size_t piece) const { return near_[piece]; }
 
  private:
@@ -148,7 +148,7 @@ class NearPieces {
   double travel_ = 0;    ///< before the next survey, at most
   double horizon_ = 0;   ///< until the next survey
   double traveled_ = 0;  ///< since the survey, at most
-  // By piece, of particles relative to its velocity field, at most:
+  // Drift of particles of each piece from its velocity field, at most:
   std::vector<double> drift_;  ///< before the next survey
   std::vector<double> gone_;   ///< since the survey
   std::vector<double> last_;   ///< in the last step
@@ -166,8 +166,7 @@ struct GroupedParticles {
   std::span<const std::int32_t> of_piece = {};  ///< a piece's only group, or -1; empty: all are -1
   /// How a piece of one group moves.
   std::function<PieceNow(std::size_t piece)> piece_now = {};
-  /// Of each piece, the logarithm of by how much distances in its group may have changed, summed
-  /// up.
+  /// Logarithm of by how much distances in each piece's group may have changed, summed up.
   std::span<const double> strain = {};
   std::span<const std::uint8_t> working = {};  ///< by piece: a step needs its lists
 };

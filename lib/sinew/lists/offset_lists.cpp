@@ -24,7 +24,7 @@ struct BlocksOf {
       : first(piece * blocks_per_piece), last(std::min(first + blocks_per_piece, blocks)) {}
 };
 
-/// Of the blocks from `first` on, which there are not.
+/// Clears the bounds of the blocks from `first` on, which do not exist.
 void clear(kernel::BlockBounds& bounds, std::size_t first) {
   constexpr float never = std::numeric_limits<float>::infinity();
   for (int axis = 0; axis < kernel::bound_axes; ++axis) {

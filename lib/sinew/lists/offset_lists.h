@@ -46,7 +46,7 @@ OffsetLists find_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>
 template <class Real>
 void remove_bonded(const BondLists<Real>& bonds, std::size_t piece, OffsetLists& lists);
 
-/// Those among `outer` that have a pair closer than `range`.
+/// Keeps those among `outer` that have a pair closer than `range`.
 template <class Real>
 OffsetLists prune_offsets(const kernel::Functions<Real>& kernel, BlockState<Real>& state,
                           std::size_t piece, const OffsetLists& outer, double range);

@@ -27,7 +27,7 @@ class ParticleLayout {
 
   std::size_t size() const { return caller_.size(); }
   const Units& units() const { return units_; }
-  /// Of the particles in the kernel's order, a block of zeros at each end.
+  /// Returns ids of particles in the kernel's order, a block of zeros at each end.
   std::span<const std::int32_t> id() const { return {id_.data() + block, size()}; }
   const std::int32_t* padded_id() const { return id_.data() + block; }
   /// Their places in the caller's order.

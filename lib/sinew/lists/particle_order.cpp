@@ -65,7 +65,7 @@ struct Planes {
   Planes(const Mat3& lattice, const Vec3& across) {
     int slowest = 0;
     (lattice.transpose() * across).cwiseAbs().maxCoeff(&slowest);
-    // Of the other two the later one is slower, as in a body filled row by row.
+    // The later one of the other two is slower, as in a body filled row by row.
     const int fastest = slowest == 0 ? 1 : 0, middle = 3 - slowest - fastest;
     axes = {lattice.col(slowest), lattice.col(middle), lattice.col(fastest)};
   }

@@ -22,8 +22,8 @@ struct PieceParts {
   std::size_t size() const { return piece.size(); }
 };
 
-/// Of particles `id` in the kernel's order, `block` to a block. A part is of one group, or
-/// of one bone and no group, apart from a few particles.
+/// Divides particles `id` in the kernel's order, `block` to a block. A part is of one group, or of
+/// one bone and no group, apart from a few particles.
 PieceParts piece_parts(const Body& body, std::span<const std::int32_t> id, std::size_t block);
 
 }  // namespace sinew

@@ -36,7 +36,7 @@ double gap_across(const PieceNow& one, const PieceNow& other);
 class PieceTree {
  public:
   PieceTree() = default;
-  /// By piece, `drift`: how much farther particles may be than its box; `bound_to`: those with the
+  /// `drift`: how much farther particles may be than its box, by piece; `bound_to`: those with the
   /// same number are bound to each other, but for -1; empty: none are.
   PieceTree(const std::vector<PieceNow>& pieces, std::span<const double> drift,
             std::span<const std::int32_t> bound_to);

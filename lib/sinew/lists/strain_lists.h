@@ -21,7 +21,7 @@ namespace sinew {
 
 template <class Real>
 struct StrainLists {
-  // By particle, with a block of zeros at each end.
+  // Values by particle, with a block of zeros at each end.
   std::array<Lines<Real>, 6> inverse;
   Lines<Real> stiffness, growth;  ///< of volumes; empty: none is kept
   std::array<Lines<Real>, 9> thrust;
@@ -31,8 +31,8 @@ struct StrainLists {
   void put_into(kernel::Step<Real>& step);
 };
 
-/// Of particles of `mass` (kg), `id` in the kernel's order, with their bonds: those that lost one
-/// keep no volume.
+/// Makes lists of particles of `mass` (kg), `id` in the kernel's order, with their bonds: those
+/// that lost one keep no volume.
 template <class Real>
 StrainLists<Real> strain_lists(const Body& body, double mass, std::span<const std::int32_t> id,
                                const BondLists<Real>& bonds, const Units& units);

@@ -113,7 +113,7 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Piec
   list(state, bonds, some, groups);
 }
 
-/// Those of pieces of one group alone; empty without groups.
+/// Returns the only group of the piece of each part, or -1; empty without groups.
 template <class Real>
 std::vector<std::int32_t> VerletLists<Real>::groups_of_parts(const GroupedParticles& groups) const {
   std::vector<std::int32_t> of_parts;
@@ -191,8 +191,8 @@ std::vector<std::uint32_t> VerletLists<Real>::pieces_of(
   return pieces;
 }
 
-/// Those that any of its parts is near, itself included, ascending. Particles of one group never
-/// touch each other: contacts are with others alone, and where there are none, nothing is near.
+/// Finds the pieces that any of its parts is near, itself included, ascending. Particles of a group
+/// never touch each other: contacts are with others alone, and without any, nothing is near.
 template <class Real>
 std::vector<std::uint32_t> VerletLists<Real>::pieces_near(std::size_t piece) const {
   std::vector<std::uint32_t> pieces;
@@ -348,13 +348,13 @@ namespace {
 
 constexpr std::size_t parts_at_a_time = 4;
 
-/// Of the kernel's velocity fields, as a share of their speed.
+/// Rounding of the kernel's velocity fields, as a share of their speed.
 template <class Real>
 constexpr double rounding = sizeof(Real) == 4 ? 1e-6 : 1e-14;
 
 }  // namespace
 
-/// Of a part, at its places.
+/// Surveys a part, at its places.
 template <class Real>
 PieceNow VerletLists<Real>::survey(std::size_t part, BlockState<Real>& state) {
   const auto arrays = state.arrays();

@@ -6,8 +6,8 @@
 // of its neighbors have approached by their skins (see near_pieces.h), and are then made again for
 // that piece alone.
 //
-// Of materials that know their neighbors at rest, the lists hold contacts: pairs that are not
-// bonded, within 2r. In a packed body they are empty until its surface folds onto itself.
+// Lists of materials that know their neighbors at rest hold contacts: pairs that are not bonded,
+// within 2r. In a packed body they are empty until its surface folds onto itself.
 //
 //     lists.make(state, parts, bonds, units);     // at first, and in a new order
 //     step.lists = lists.arrays(), step.parts = lists.parts();
@@ -67,7 +67,7 @@ class VerletLists {
   /// relative to each other since they were looked at, or that are near one that flows.
   std::vector<std::uint32_t> to_look_at(const std::function<bool(std::size_t)>& flows) const;
   void looked_at(std::size_t piece, double still);
-  /// Of the outer lists, in lengths of the kernel.
+  /// Returns the range of the outer lists, in lengths of the kernel.
   double outer_range() const { return ranges_.outer; }
 
   /// Around the particles of a piece, m.
@@ -112,7 +112,7 @@ class VerletLists {
   ListRanges ranges_;      ///< in its lengths
 
   PieceParts of_;
-  // By part:
+  // Values by part:
   NearPieces near_;
   std::vector<Real> fastest_;  ///< squared, in the last step
   std::vector<kernel::RigidMotion<Real>> motions_;
@@ -120,7 +120,7 @@ class VerletLists {
   std::vector<Mat3> axes_;     ///< of the particles, at the last survey
   std::vector<double> speed_;  ///< of the velocity field, at most
   double elapsed_ = 0;         ///< since the survey, in times of the kernel
-  // By piece:
+  // Values by piece:
   std::vector<OffsetLists> outer_, inner_;
   std::vector<kernel::Lists> arrays_;
   std::vector<std::uint8_t> grouped_;  ///< of one group alone
@@ -130,7 +130,7 @@ class VerletLists {
   std::int64_t moment_ = 0;
   std::vector<std::uint32_t> changed_;
   std::vector<std::uint8_t> looked_;  ///< by piece
-  /// By piece of a group: its strain when they were made.
+  /// Strain of each piece of a group when its lists were made.
   std::vector<double> listed_at_, pruned_at_;
 
   ListCounts counts_;

@@ -15,7 +15,7 @@
 
 namespace sinew {
 
-/// Of displacements in columns: 3 rows a particle.
+/// Forces of displacements in columns: 3 rows a particle.
 class FreeBody {
  public:
   /// `mass` by row, kg.

@@ -19,7 +19,7 @@ class NearlySolved {
 
   bool sound() const { return solver_.info() == Eigen::Success; }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
-  /// By conjugate gradients, to some digits.
+  /// Solves by conjugate gradients, to some digits.
   Eigen::VectorXd solve_well(const Eigen::VectorXd& b) const;
 
  private:

@@ -85,7 +85,7 @@ class OuterLayer {
   }
 
  private:
-  /// From the surface inward, those that have room on the offset surface.
+  /// Chooses, from the surface inward, those that have room on the offset surface.
   void choose_outermost(const Points& places, const std::vector<double>& depth, double deepest) {
     std::vector<std::uint32_t> order;
     Points on_it = places;
@@ -106,8 +106,8 @@ class OuterLayer {
     }
   }
 
-  /// Those with others deeper in the body beside them: where it is a particle or two thick, it has
-  /// no layer, and would fall apart.
+  /// Marks those with others deeper in the body beside them: where it is a particle or two thick,
+  /// it has no layer, and would fall apart.
   std::vector<char> find_backed(const Points& places, const std::vector<double>& depth) const {
     std::vector<char> backed(places.size());
     const double around = second_distance(r_) * 1.01;

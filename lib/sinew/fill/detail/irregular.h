@@ -25,8 +25,8 @@ struct Irregular {
   double smallest = 0, mean = 0;  ///< distance to the nearest of them, m
 };
 
-/// From `filled`, the same body on a lattice: as many particles in a volume. The same for any
-/// number of threads. Throws bad input where the surface does not allow the packing.
+/// Packs as many particles in a volume as `filled`, the same body on a lattice, has. The same for
+/// any number of threads. Throws bad input where the surface does not allow the packing.
 Irregular irregular_packing(const BodySpace& space, const PackOptions& options,
                             const FilledSites& filled);
 

@@ -31,8 +31,8 @@ void keep(Interval& part, double slope, double offset) {
 
 Interval everything() { return {-HUGE_VAL, HUGE_VAL}; }
 
-/// Of length 1, zero for collinear corners. That of a thin face has few significant digits, but
-/// must not lean along the face's longest side, where the lever arm is long.
+/// Returns a normal of length 1, zero for collinear corners. A thin face's has few significant
+/// digits, but must not lean along the longest side, where the lever arm is long.
 Vec3 unit_normal(const Vec3& edge, const Vec3& next_edge, const Vec3& longest) {
   Vec3 normal = edge.cross(next_edge);
   const double squared_length = longest.squaredNorm();

@@ -27,7 +27,7 @@ class Owners {
                                  const std::function<void(std::size_t)>& visit) const = 0;
 };
 
-/// Of filled sites, which must outlive this.
+/// Particles at filled sites, which must outlive this.
 class SiteOwners : public Owners {
  public:
   SiteOwners(const FilledSites& filled, const Touching& touching);
@@ -46,7 +46,7 @@ class SiteOwners : public Owners {
   std::vector<LatticePlace> places_;
 };
 
-/// Of particles at any places.
+/// Particles at any places.
 class PointOwners : public Owners {
  public:
   /// `touching`: the neighbors of each; must outlive this.

@@ -20,7 +20,7 @@ constexpr int max_planes = 2;      // to a second neighbor
 
 bool holds_seconds(const Material& material) { return material.bond.second > 0; }
 
-/// Of whole coordinates, or -1 where they are too large.
+/// Returns the cell of whole coordinates, or -1 where they are too large.
 int cell_of(const Vec3& site) {
   if (!(site.cwiseAbs().maxCoeff() < max_planes + 0.5)) return -1;
   const auto at = [&](int axis) { return static_cast<int>(std::lround(site[axis])) + max_planes; };

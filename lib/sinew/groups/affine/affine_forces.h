@@ -20,7 +20,7 @@ namespace sinew {
 
 struct Body;
 
-/// From a site of FCC to its neighbors: twelve nearest ones, then six second ones.
+/// Neighbors of a site of FCC: twelve nearest ones, then six second ones.
 inline constexpr int nearest_sites = 12, near_sites = 18;
 
 /// Whether all forces between particles follow from the bonds at rest: then nothing else counts
@@ -52,18 +52,18 @@ struct AffineSum {
 
 class AffineForces {
  public:
-  /// Of a body that stays where it is.
+  /// The body must stay where it is.
   explicit AffineForces(const Body& body);
 
   /// The place of a neighbor among the sites, from one particle to it, or -1: at no site.
   int site_of(const Vec3& from_to) const;
-  /// From a particle to each, m.
+  /// Returns the vectors from a particle to each, m.
   const Points& sites() const { return site_; }
   AffineMoments moments_of(std::uint32_t i, const Vec3& X) const;
 
   /// Between neighbors, without damping.
   AffineSum at(const AffineMoments& moments, const Mat3& F) const;
-  /// Of eq. 2, towards the mean velocity of the neighbors.
+  /// Returns the damping of eq. 2, towards the mean velocity of the neighbors.
   AffineSum damping(const AffineMoments& moments, const Mat3& rate) const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 constexpr double flattest = 1e-6;   // of mean squares along an axis, of the largest
 constexpr double min_apart = 1e-7;  // eigenvalue of products, of the largest
 
-/// Of a polynomial's values, over the sums of theirs times the terms, and of their squares.
+/// Returns the mean square of values less a polynomial, by sums of their squares and times terms.
 double mean_square(double squares, const Coefficients& times_terms, const TermProducts& products,
                    const Coefficients& of, double n) {
   const double sum =

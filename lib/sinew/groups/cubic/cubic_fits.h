@@ -16,10 +16,10 @@
 
 namespace sinew {
 
-/// In which places are about 1 from their middle in any direction.
+/// Frame in which places are about 1 from their middle in any direction.
 class FitFrame {
  public:
-  /// Of places (m), at least one.
+  /// Fits places (m), at least one.
   explicit FitFrame(const Points& places);
 
   Vec3 at(const Vec3& place) const { return turn_ * (place - middle_); }
@@ -51,7 +51,7 @@ struct CubicMotion {
   Coefficients x, v;
 };
 
-/// By least squares; none where terms cannot be told apart.
+/// Fits by least squares; none where terms cannot be told apart.
 std::optional<CubicMotion> cubic_motion(const CubicSums& sums);
 
 /// Mean squares of how far particles are from a motion: of their places (m^2) and velocities.

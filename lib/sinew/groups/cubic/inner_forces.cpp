@@ -22,7 +22,7 @@ void for_each_site(std::uint32_t sites, const Visit& visit) {
   for (; sites != 0; sites &= sites - 1) visit(static_cast<std::uint32_t>(std::countr_zero(sites)));
 }
 
-/// Of terms from a particle to the nearest of its neighbors at these sites.
+/// Averages the growth of terms from a particle to the nearest of its neighbors at these sites.
 Growth mean_growth(const std::array<Growth, near_sites>& growth, std::uint32_t sites) {
   Growth mean = Growth::Zero();
   for_each_site(sites & nearest_ones, [&](std::uint32_t site) { mean += growth[site]; });
@@ -42,8 +42,8 @@ Vec3 place(const InnerParticles& of, std::size_t k) {
 
 }  // namespace
 
-/// Of a block's particles, by lane: the sites of neighbors that are idle as well, and of those that
-/// the kernel computes; and where neighbors are, by site.
+/// Sites of neighbors of a block's particles, by lane: of those that are idle as well, and of those
+/// that the kernel computes; and where neighbors are, by site.
 template <class Real>
 struct InnerForces<Real>::Reach {
   std::array<std::uint32_t, block> within{}, across{};

@@ -30,12 +30,12 @@ struct GroupMotion {
   Coefficients x = Coefficients::Zero(), v = Coefficients::Zero();
 };
 
-/// Of forces on particles of a group (N), times the terms of their places.
+/// Sums of forces on particles of a group (N), times the terms of their places.
 struct GroupForces {
   Coefficients force = Coefficients::Zero(), drag = Coefficients::Zero();  ///< all; of eq. 2
 };
 
-/// Those of groups, by place in the kernel's order.
+/// Particles of groups, by place in the kernel's order.
 struct InnerParticles {
   std::span<const std::int32_t> id, group;    ///< group -1: free
   std::array<std::span<const double>, 3> at;  ///< in the frame of the group
@@ -48,7 +48,7 @@ template <class Real>
 class InnerForces {
  public:
   InnerForces() = default;
-  /// Of bonds that stay as they are.
+  /// The bonds must stay as they are.
   InnerForces(const Body& body, const AffineForces& lattice, const BondLists<Real>& bonds,
               const InnerParticles& particles);
 

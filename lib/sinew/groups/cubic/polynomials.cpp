@@ -15,7 +15,7 @@ int term_of(std::array<int, 3> factors) {
 
 }  // namespace
 
-/// Of each product (x + d)(y + e)(z + f) all parts but x y z.
+/// Adds up all parts of each product (x + d)(y + e)(z + f) but x y z.
 Growth growth_over(const Vec3& difference) {
   Growth growth = Growth::Zero();
   for (int k = 0; k < cubic_terms; ++k) {

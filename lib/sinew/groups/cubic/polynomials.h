@@ -20,7 +20,7 @@ inline constexpr int affine_terms = kernel::affine_terms, square_terms = 10,
 
 using Terms = Eigen::Matrix<double, cubic_terms, 1>;
 using SquareTerms = Eigen::Matrix<double, square_terms, 1>;
-/// Of three values, one a column; those that a polynomial does not have are 0.
+/// Coefficients of three values, one a column; those that a polynomial does not have are 0.
 using Coefficients = Eigen::Matrix<double, cubic_terms, 3>;
 
 /// The factors of each term: 0, 1 and 2 are x, y and z, 3 is 1.

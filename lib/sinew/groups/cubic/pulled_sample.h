@@ -31,7 +31,7 @@ template <class Real>
 class PulledSample {
  public:
   PulledSample() = default;
-  /// Of blocks each of which is of one group.
+  /// Samples blocks each of which is of one group.
   PulledSample(Quadrature quadrature, const InnerParticles& particles);
 
   const std::vector<PulledRun>& runs() const { return runs_; }

@@ -24,8 +24,8 @@ std::uint64_t scattered(std::uint64_t number) {
   return number >> 32;
 }
 
-/// Of blocks, in a frame of their own: those of a part of a group would be near to each other in
-/// its frame.
+/// Finds moments of blocks in a frame of their own: in that of a group, those of a part of it would
+/// be near to each other.
 std::vector<QuarticTerms> moments_of(const std::vector<std::uint32_t>& blocks,
                                      const std::function<Points(std::uint32_t)>& places_of) {
   Points middles;

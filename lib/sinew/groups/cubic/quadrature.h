@@ -18,15 +18,15 @@ namespace sinew {
 inline constexpr int quartic_terms = 35;
 /// The terms of polynomials.h, then those of the fourth degree.
 using QuarticTerms = Eigen::Matrix<double, quartic_terms, 1>;
-/// Of a place, in units in which all of them are within about 1.
+/// Returns the terms of a place, in units in which all places are within about 1.
 QuarticTerms quartic_terms_at(const Vec3& at);
 
-/// Of so many, one of how many is a sample of them: of few, each.
+/// Returns how many of `count` there are to a sample: 1 if they are few.
 std::size_t stretch_of(std::size_t count);
 /// Whether the n-th is one.
 bool is_sample(std::size_t n, std::size_t stretch);
-/// Of samples of `count`, each a column: its moments; `all`: the sums over all. None where they
-/// would differ much.
+/// Weighs samples of `count`, each a column: its moments; `all`: the sums over all. None where the
+/// weights would differ much.
 std::vector<double> weights_of(const Eigen::MatrixXd& samples, const Eigen::VectorXd& all,
                                std::size_t count);
 
@@ -41,8 +41,8 @@ struct Quadrature {
   std::vector<double> weight;
 };
 
-/// Of all blocks, ascending. `places_of`: its particles' places, in any frame. Kinds of few blocks
-/// are small: their sums are exact to the second order.
+/// Samples all blocks, ascending. `places_of`: places of a block's particles, in any frame. Kinds
+/// of few blocks are small: their sums are exact to the second order.
 Quadrature quadrature_over(const std::vector<SampledBlock>& blocks,
                            const std::function<Points(std::uint32_t)>& places_of);
 

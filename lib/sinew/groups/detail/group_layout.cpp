@@ -111,7 +111,7 @@ void GroupLayout<Real>::find_role(std::size_t b) {
   });
 }
 
-/// Those of one group alone.
+/// Finds the pieces of one group alone.
 template <class Real>
 void GroupLayout<Real>::find_pieces() {
   constexpr std::size_t size = blocks_per_piece * block;

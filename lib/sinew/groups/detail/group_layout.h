@@ -39,7 +39,7 @@ class GroupLayout {
  public:
   static constexpr std::size_t block = BlockState<Real>::block;
 
-  /// Of particles, by their place in the kernel's order.
+  /// Particles by their place in the kernel's order.
   struct Places {
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> group;                ///< -1: free
@@ -80,9 +80,9 @@ class GroupLayout {
   const std::vector<GroupRun>& rim() const { return rim_; }
   /// The rim, and what a step reads of idle blocks.
   const std::vector<GroupRun>& read_in_steps();
-  /// By piece: the group that all of its particles are of, or -1.
+  /// Returns by piece the group that all of its particles are of, or -1.
   const std::vector<std::int32_t>& group_of_pieces() const { return of_piece_; }
-  /// By piece: whether a step computes some of it.
+  /// Returns by piece whether a step computes some of it.
   const std::vector<std::uint8_t>& working_pieces() const { return working_; }
   /// Fills what the kernel knows of the blocks.
   void put_into(kernel::Grouped<Real>& grouped) const;

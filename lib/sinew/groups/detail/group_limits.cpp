@@ -116,7 +116,7 @@ Error unstable_group(const std::string& how, double stretch, const std::string& 
                    "; make hierarchy.joint_distance larger, or hierarchy.enabled false");
 }
 
-/// Of the principal stretches, ascending.
+/// Returns the squares of the principal stretches, ascending.
 Vec3 squared_stretches(const Mat3& F) {
   return Eigen::SelfAdjointEigenSolver<Mat3>(F.transpose() * F, Eigen::EigenvaluesOnly)
       .eigenvalues();
@@ -332,7 +332,7 @@ double GroupLimits<Real>::spare_of(const Mat3& F) const {
   return std::min(std::sqrt(std::max(0.0, squares[0])) / stretch_.min, stretch_.max / most);
 }
 
-/// Of particles that are no neighbors at rest, none may touch.
+/// Lets no particles touch that are no neighbors at rest.
 template <class Real>
 double GroupLimits<Real>::spare_of_cubic(const Mat3& F, double changes) const {
   if (F.determinant() <= 0) return 0;

@@ -45,8 +45,8 @@ class GroupLimits {
 
   /// How a piece of one group moves, in the kernel's units.
   PieceNow piece_now(std::size_t piece, const Units& units) const;
-  /// By piece, the logarithm of by how much distances from particles of its groups to others of
-  /// theirs may have changed since the beginning, summed up.
+  /// Returns by piece the logarithm of by how much distances from particles of its groups to others
+  /// of theirs may have changed since the beginning, summed up.
   const std::vector<double>& strains() const { return strains_; }
 
  private:

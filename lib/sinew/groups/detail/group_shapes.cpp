@@ -17,7 +17,7 @@ using Products = Eigen::Matrix<double, cubic_terms, cubic_terms>;
 
 constexpr std::size_t particles_per_matrix = 16384;
 
-/// From mean places, and the square roots of mean squares along all directions.
+/// Finds frames from mean places, and the square roots of mean squares along all directions.
 void find_frames(const Body& body, std::vector<GroupShape>& shapes) {
   const std::vector<std::int32_t>& group = body.grouping->group;
   const auto for_each = [&](const auto& visit) {

@@ -22,11 +22,11 @@ constexpr int moments_ahead = 16;
 // Groups are worth the work of making them if no joint of theirs moves for so many checks.
 constexpr double checks_ahead = 16;
 constexpr int max_rounds = 4;  // of what is grown and found not to fit
-// Of how far off the worst is, squared: what leaves at once with it.
+// Share of how far off the worst is, squared, from which on others leave with it.
 constexpr double leaving_share = 0.25;
 constexpr double free_share = 0.5;  // of the tolerance, for what was free
 constexpr double torn_share = 0.5;  // of the tolerance: what leaves where something must
-// Of a particle that is moved while its neighbors stay, in stiffnesses of a bond.
+// Stiffness against moving a particle while its neighbors stay, in stiffnesses of a bond.
 constexpr double stiffness_of_place = 4;
 
 /// Units of one part that move by one cubic.
@@ -43,8 +43,8 @@ class CubicGrowth {
     choose(is_one);
     return fit() && worst() < 1;
   }
-  /// Of those, the units that do and are in no group yet, and others that move with them, if they
-  /// are enough.
+  /// Takes the units of those that do and are in no group yet, and others that move with them, if
+  /// they are enough.
   template <class IsOne>
   std::vector<std::size_t> grow(const IsOne& is_one) {
     std::vector<std::size_t> grown;
@@ -153,7 +153,7 @@ bool DynamicGroups::is_held_above(double share, const HeldCell& cell) const {
   return cell.squares > most * most * cell.count;
 }
 
-/// Of what a unit may be off, squared, before it leaves, or where it was free, to join.
+/// Returns the share of what a unit may be off, squared, to stay or, where it was free, to join.
 double DynamicGroups::share_of_most(const GroupingMoment& now, bool was_grouped,
                                     const Residual& off) const {
   const double most = (was_grouped ? 1 : free_share) * options_.tolerance * body_->material.pair.r;
@@ -239,8 +239,8 @@ void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) co
   }
 }
 
-/// Of each part the units that move by cubics: those of a group before, or of all of its groups, as
-/// far as they still do, and what moves with them; then what is left.
+/// Groups units of each part that move by cubics: those of a group before, or of all of its groups,
+/// as far as they still do, and what moves with them; then what is left.
 void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
   std::map<int, std::vector<std::size_t>> parts;
   for (std::size_t u = 0; u < units.all().size(); ++u)

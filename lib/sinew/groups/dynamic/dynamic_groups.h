@@ -28,7 +28,7 @@ namespace sinew {
 struct GroupingMoment {
   double time = 0;      ///< s
   double interval = 0;  ///< until the next check, s
-  /// By bone, since when its joint with its parent has counted as still, s; below 0: it moves.
+  /// Moment (s) from which each bone's joint with its parent counts as still; below 0: it moves.
   std::vector<double> still_since = {};
 };
 

@@ -31,7 +31,7 @@ struct AffineSums {
   void add(const Vec3& rest, const Vec3& at, const Vec3& velocity);
   AffineSums& operator+=(const AffineSums& other);
   Mat3 spread() const { return XX - X * X.transpose() / n; }
-  /// By least squares.
+  /// Fits by least squares.
   AffineMap map() const;
 };
 
@@ -46,7 +46,7 @@ struct Unit {
   Residual own;  ///< from its map
 
   bool was_grouped() const { return was_in >= 0; }
-  /// From another map.
+  /// Returns how far it is from another map.
   Residual from(const AffineMap& other) const;
 };
 
@@ -62,7 +62,7 @@ class MovingUnits {
   std::span<const std::uint32_t> members(std::size_t unit) const {
     return {member_.data() + first_[unit], first_[unit + 1] - first_[unit]};
   }
-  /// Of some units, in a frame for the places of their particles. In parallel.
+  /// Sums over some units, in a frame for the places of their particles. In parallel.
   std::vector<CubicSums> cubic_sums(std::span<const std::size_t> units) const;
 
  private:
