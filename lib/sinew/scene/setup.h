@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a scene and its filled body to a simulation that can be stepped.
+// Turns a scene and its filled body into a simulation that can be stepped.
 //
 //     const ReadyScene ready = prepare(settings);
 //     Simulation simulation = start(settings, ready);
@@ -31,7 +31,7 @@ namespace sinew {
 Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skeleton& skeleton,
                    const Points& rest, double radius);
 
-/// Of a scene's particles; a damping ratio apart.
+/// Returns the material of a scene's particles, a damping ratio apart.
 Material material_of(const Settings& settings, const Particles& particles);
 
 /// What differs from particle to particle, as in Body.
