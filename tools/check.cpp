@@ -111,7 +111,8 @@ void add_material(const Material& material, Results& results) {
   results.add("shear_wave_speed_100", std::sqrt(material.constants().C44 / density), "m/s");
 }
 
-/// Of each bone, and of that along which the body is softest against what was asked for.
+/// Adds results of each bone, and of that along which the body is softest against what was asked
+/// for.
 void add_planes(const Body& body, Results& results) {
   const auto bones = stiffness_along_bones(body);
   if (bones.empty()) return;
@@ -158,7 +159,7 @@ void add_steps(const Settings& settings, const Setup& setup, double speed, Resul
   results.add("bone_speed", speed, "radii per step");
 }
 
-/// Of equilibria: nobody knows before how many iterations one takes.
+/// Adds the load steps of equilibria: nobody knows before how many iterations one takes.
 void add_load_steps(const Settings& settings, const LoadSteps& steps, double rate,
                     std::size_t particles, Results& results) {
   results.add("method", "static");

@@ -268,7 +268,7 @@ TEST(Groups, AStretchAtWhichNeighborsPartEndsTheRun) {
   test::expect_error(Exit::unstable, [&] { simulation.step(); }, {"stretched to 1.31"});
 }
 
-// Those of a scene.
+// Groups of a scene.
 
 sinew::Setup set_up(Settings settings, int width = 25, int height = 81) {
   settings.hierarchy.enabled = true;
