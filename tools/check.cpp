@@ -112,7 +112,8 @@ void add_material(const Material& material, Results& results) {
   results.add("shear_wave_speed_100", std::sqrt(material.constants().C44 / density), "m/s");
 }
 
-/// Of each bone, and of that along which the body is softest against what was asked for.
+/// Adds results of each bone, and of that along which the body is softest against what was asked
+/// for.
 void add_planes(const Body& body, Results& results) {
   const auto bones = stiffness_along_bones(body);
   if (bones.empty()) return;
@@ -159,7 +160,7 @@ void add_steps(const Prepared& prepared, double speed, Results& results) {
   results.add("bone_speed", speed, "radii per step");
 }
 
-/// Results of equilibria: nobody knows before how many iterations one takes.
+/// Adds results of equilibria: nobody knows before how many iterations one takes.
 void add_load_steps(const Prepared& prepared, double rate, Results& results) {
   const LoadSteps& steps = *prepared.load_steps;
   const auto particles = static_cast<double>(prepared.filled.particles.size());

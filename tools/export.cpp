@@ -61,7 +61,7 @@ std::filesystem::path default_target(const Options& options, const ParticleForma
   return run + (folder ? '_' + std::string(format.name) : std::string(format.extensions.front()));
 }
 
-/// By its name, or where frames go to one file by that of the file.
+/// Chooses by its name, or where frames go to one file by that of the file.
 const ParticleFormat& chosen_format(const Options& options) {
   if (options.format.empty() && options.output.empty())
     throw bad_input("no format is given", "add --to FORMAT; see sinew export --help");

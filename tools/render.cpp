@@ -207,7 +207,7 @@ class Share {
   StageProgress progress_;
 };
 
-/// Of one view, frames of the movie too.
+/// Counts pictures of one view, frames of the movie too.
 std::size_t pictures_planned(const Options& options, const DrawnRun& run) {
   const std::size_t moments =
       options.times.empty() ? run.key_frames().size() : options.times.size();
@@ -229,7 +229,7 @@ bool tells_all(const Options& options) {
          options.other_folder.empty();
 }
 
-/// Of views that were not asked for, the first one alone.
+/// Returns whether a view has one: of those that were not asked for, the first alone.
 bool has_movie(const Options& options, std::size_t view) {
   return !options.no_movie && (view == 0 || !options.views.empty());
 }

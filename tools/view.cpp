@@ -173,7 +173,7 @@ fs::path temporary_folder() {
   return folder;
 }
 
-/// By "paraview version 5.11.0", which the program prints.
+/// Chooses by "paraview version 5.11.0", which the program prints.
 CameraLinks links_for(const fs::path& program) {
   const std::string command = shell_quoted(program.string()) + " --version 2>/dev/null";
   std::FILE* said = ::popen(command.c_str(), "r");
@@ -208,7 +208,7 @@ fs::path write_state(const RunFolder& folder, const ViewOptions& options, Camera
   return file;
 }
 
-/// By a state, which ParaView opens without its Python.
+/// Opens a state, which ParaView does without its Python.
 Exit open_window(const RunFolder& folder, const Options& options, const Common& common) {
   const fs::path program = program_named("paraview");
   check_screen();

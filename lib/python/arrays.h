@@ -53,7 +53,7 @@ py::array owned(Array values) {
 
 using GivenPoints = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// From n x 3 numbers. Throws bad input, naming `what`, for another shape.
+/// Converts n x 3 numbers. Throws bad input, naming `what`, for another shape.
 inline Points points_of(const GivenPoints& given, const std::string& what) {
   if (given.ndim() != 2 || given.shape(1) != 3)
     throw bad_input(what + " are not n x 3 numbers", "give an array of shape (n, 3)");

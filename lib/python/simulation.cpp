@@ -35,7 +35,7 @@ class Stepped {
   }
 
   double time() const { return simulation_->time(); }
-  /// Those that other threads may ask for in the meantime.
+  /// Returns what other threads may ask for in the meantime.
   double time_told() const { return time_; }
   std::int64_t steps_told() const { return steps_; }
 

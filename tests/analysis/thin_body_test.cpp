@@ -19,7 +19,7 @@ Settings scene(MaterialModel model, DampingForm form, double damping) {
   return settings;
 }
 
-/// By how much noise has grown after 250 steps.
+/// Returns how much noise has grown after 250 steps.
 double growth(const Settings& settings, const Points& rest, double step) {
   const Particles start = test::shaken(rest, test::material_of(settings), 0, noise);
   Simulation simulation = test::simulation_from(settings, rest, start, step);

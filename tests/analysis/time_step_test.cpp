@@ -31,7 +31,7 @@ double limit_of(const Settings& settings, const Points& rest) {
   return step_limit(settings.solver.integrator, body.material, body.springs);
 }
 
-/// By how much noise has grown after `steps` at `share` of the limit.
+/// Returns how much noise has grown after `steps` at `share` of the limit.
 double growth(const Settings& settings, double share, int steps, const Points& rest = bar()) {
   const Particles start = test::shaken(rest, test::material_of(settings), 0, noise);
   Simulation simulation =

@@ -79,7 +79,7 @@ void grip(BindingOptions& binding, const Bar& bar) {
       strong_grip * widths * widths;
 }
 
-/// From upright to 90 degrees in twice the approach, beginning at `time` (s).
+/// Bends from upright to 90 degrees in twice the approach, beginning at `time` (s).
 TrackDefinition bending(double time, const Bar& bar) {
   const double end = time + 2 * approach * bar.slower();
   return test::track("upper", {test::bend_key(time, 0), test::bend_key(end, turn)});

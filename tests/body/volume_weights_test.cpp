@@ -71,7 +71,7 @@ TEST(VolumeWeights, FollowShares) {
   EXPECT_GT(sum(less), 0.97 * sum(share));
 }
 
-/// Of a body of 13 planes, over that of an isotropic continuum of its size.
+/// Returns the energy of a body of 13 planes over that of an isotropic continuum of its size.
 double energy_share(double ratio, const Mat3& strain, const BondFactors& factors,
                     const Material& material, const Points& rest) {
   Solid solid(material, rest, numbers(rest.size()), factors);

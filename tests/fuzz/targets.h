@@ -31,7 +31,7 @@ struct Target {
 };
 inline void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
 
-/// Those that this program tries on their corpora.
+/// Returns targets that this program tries on their corpora.
 std::vector<Target> tried_targets();
 
 /// Ends the program where something that always holds does not.

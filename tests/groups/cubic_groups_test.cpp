@@ -95,8 +95,8 @@ TEST(CubicGroups, MoveByTheForcesOnAllOfTheirParticles) {
   EXPECT_LT(off_the_forces(with_groups_at_ends(test::unbound(bonded()))), 2e-3);
 }
 
-/// Of bones a hundred times as stiff as a scene's, each alone or two that share particles: the
-/// sample of small groups is exact to the second order alone.
+/// Bones a hundred times as stiff as a scene's, each alone or two that share particles: the sample
+/// of small groups is exact to the second order alone.
 TEST(CubicGroups, MoveByWhatBonesExertOnAllOfTheirParticles) {
   for (const Precision precision : {Precision::binary64, Precision::binary32})
     for (const double zone : {0.0, 3.0}) {
@@ -155,7 +155,7 @@ TEST(CubicGroups, AreOfTheLatticeOfTheirBody) {
   EXPECT_EQ(inside(MaterialModel::bonded), 0U);
 }
 
-/// Of particles in a box that are moved by a cubic, and off it by `off`, one way or the other.
+/// Particles in a box that are moved by a cubic, and off it by `off`, one way or the other.
 TEST(CubicFits, TellACubicMotionAndHowFarParticlesAreFromIt) {
   const Points rest = test::fcc_box(17, 17, 33, r);
   const FitFrame frame(rest);

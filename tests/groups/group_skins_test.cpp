@@ -11,7 +11,7 @@ namespace sinew::group_skins_test {
 using namespace groups_test;
 namespace {
 
-/// Of all forces on the particles of a body that is one group, and of a step with them.
+/// Accelerations by all forces on particles of a body that is one group, and by a step with them.
 struct Accelerations {
   Vec3 expected, found;
   Mat3 expected_F, found_F;

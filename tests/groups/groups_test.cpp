@@ -268,7 +268,7 @@ TEST(Groups, AStretchAtWhichNeighborsPartEndsTheRun) {
   test::expect_error(Exit::unstable, [&] { simulation.step(); }, {"stretched to 1.31"});
 }
 
-// Those of a scene.
+// Groups of a scene.
 
 Prepared grouped(Settings settings) {
   settings.hierarchy.enabled = true;

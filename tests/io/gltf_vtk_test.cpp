@@ -200,7 +200,7 @@ class GltfRigAndVtk : public Scratch {
     return most / box.diagonal().norm();
   }
 
-  /// Of a mirrored body we turn the triangles, VTK does not.
+  /// Allows for the triangles of a mirrored body, which we turn and VTK does not.
   double corner_error(const Pose& pose, const VtkPose& vtk) const {
     const bool mirrored = at_bind.linear().determinant() < 0;
     const Points corners = skinned_corners(rig, pose);
@@ -230,7 +230,7 @@ class GltfRigAndVtk : public Scratch {
     return times;
   }
 
-  /// Of one bone's samples.
+  /// Returns the times of one bone's samples.
   std::vector<double> sample_times(const char* bone) const {
     for (const Track& track : rig.rig.clips.at(0).motion.tracks)
       if (rig.rig.skeleton.bones[static_cast<std::size_t>(track.bone)].name == bone)

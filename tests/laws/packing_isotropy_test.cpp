@@ -152,7 +152,7 @@ class Equilibrium {
     return moved;
   }
 
-  /// By least squares.
+  /// Fits displacements by least squares.
   Mat3 strain_inside(const Points& moved) const {
     Vec3 center = Vec3::Zero(), by = Vec3::Zero();
     double count = 0;

@@ -184,7 +184,7 @@ TEST(Presets, SwingAsTheirDampingRatioSays) {
     }
 }
 
-/// Of a bar that is too large to be solved exactly.
+/// Bar that is too large to be solved exactly.
 TEST(DampingRatioOfALargerBody, IsThatOfABodyThatRings) {
   for (const auto model : {MaterialModel::paper, MaterialModel::bonded}) {
     Settings settings = test::unbound(test::box_scene(25));

@@ -117,7 +117,7 @@ class Cloud {
     return surveyed_;
   }
 
-  /// From three points of the law, exact for a rigid motion.
+  /// Fits to three points of the law, exact for a rigid motion.
   void fit(std::size_t piece, PieceNow& one) const {
     one.velocity = velocity_(one.center, time_, piece);
     for (int axis = 0; axis < 3; ++axis) {
@@ -262,7 +262,7 @@ TEST(NearPieces, KeepTheListsOfABodyThatMovesAsOne) {
     EXPECT_EQ(cloud.listed, 0);
     EXPECT_LE(cloud.pruned, 5 * 600 / 100);
   }
-  // By a degree in a step and a half, over a turn.
+  // Turns by a degree in a step and a half, over a turn.
   Cloud cloud(5, 1.5, turning, Cloud::Field::fitted);
   for (int step = 0; step < 600; ++step) cloud.step();
   EXPECT_LE(cloud.listed, 2 * 5);

@@ -114,8 +114,8 @@ TEST(Branches, OfAStretchedBarRelaxAsPronySays) {
   }
 }
 
-/// Of a load that grows within T: u(t) = F / K (1 - g (e^(-w (t - T)) - e^(-w t)) / (w T)) / (1 -
-/// g), w = (1 - g) / tau.
+/// Creep of a load that grows within T: u(t) = F / K (1 - g (e^(-w (t - T)) - e^(-w t)) / (w T)) /
+/// (1 - g), w = (1 - g) / tau.
 TEST(Branches, OfALoadedBarCreepAsTheStandardLinearSolid) {
   constexpr double share = 0.5, tau = 0.5, ramp = 0.25;
   const auto height_of = [](Simulation& simulation, const Machine& machine) {

@@ -13,7 +13,7 @@ using shapes::inverted;
 using shapes::sphere;
 using shapes::together;
 
-/// Of a surface around the origin.
+/// Counts inward faces of a surface around the origin.
 std::size_t inward_faces(const Surface& surface) {
   std::size_t count = 0;
   for (const auto& [a, b, c] : surface.triangles.faces) {

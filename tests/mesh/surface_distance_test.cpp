@@ -17,7 +17,7 @@ Surface box_of(const Vec3& low, const Vec3& high) {
   return prepare(shapes::box(low, high), BodyOptions());
 }
 
-/// Of a box about the origin, exactly.
+/// Returns the exact distance to a box about the origin.
 double distance_to_box(const Vec3& half, const Vec3& p) {
   const Vec3 beyond = p.cwiseAbs() - half;
   return beyond.cwiseMax(0).norm() + std::min(0.0, beyond.maxCoeff());

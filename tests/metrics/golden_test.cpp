@@ -142,7 +142,7 @@ std::string rounded_columns(const std::string& csv) {
   return out;
 }
 
-/// Of every array that can be asked for, its values at some particles of a frame.
+/// Lists the values of every array that can be asked for, at some particles of a frame.
 std::string arrays_text(const Measured& run) {
   std::string out;
   for (const Column& column : particle_arrays(run.body, run.states[2], requestable_arrays())) {

@@ -82,7 +82,7 @@ TEST(PairForces, AreOverTheVolumeThatTheBondsMakeStiff) {
   const RestBody body = rest_body(input);
   FrameState state = moved(body, scaled(1.1));
   state.bond_rest = first_bond_rest(body);
-  // As of factors 1: twelve bonds, and six of a quarter at sqrt(2) times the distance.
+  // Stress as of factors 1: twelve bonds, and six of a quarter at sqrt(2) times the distance.
   const double expected = pressure(0.1 * 2 * r, 1.1 * 2 * r) * (12 + 6 * 0.25 * 2) / 12;
   const std::vector<Mat3> found = stresses(body, state);
   for (std::size_t i = 0; i < body.particles(); ++i)

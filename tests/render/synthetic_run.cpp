@@ -11,7 +11,7 @@ namespace {
 constexpr double spacing = 0.0141421356237, radius = 0.01;
 const Vec3 size(11 * spacing, 11 * spacing, 49 * spacing);
 
-/// From 0 at the near end of the joint to 1 at its far end.
+/// Rises from 0 at the near end of the joint to 1 at its far end.
 double smooth_step(double z) {
   const double t = std::clamp((z - 0.3 * size.z()) / (0.4 * size.z()), 0.0, 1.0);
   return t * t * (3 - 2 * t);

@@ -21,7 +21,7 @@ Triangles triangles_of(const PolygonSoup& soup) {
   return triangles;
 }
 
-/// Those along which faces do not go as often one way as the other.
+/// Counts edges along which faces do not go as often one way as the other.
 std::size_t open_edges(const Triangles& triangles) {
   std::size_t open = 0;
   const auto uses = edge_uses(triangles);

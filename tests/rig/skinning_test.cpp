@@ -69,7 +69,7 @@ struct Prism {
   Points dual(const Pose& pose) const {
     return dual_quaternion_skinned(surface.points, weights, skeleton, pose);
   }
-  /// As a share of the volume at rest.
+  /// Returns the share of the volume at rest.
   double share(Points points) const {
     return volume({std::move(points), surface.faces}) / volume(surface);
   }

@@ -11,7 +11,7 @@
 
 namespace sinew::test {
 
-/// Of its last digits a number keeps what no rounding of another compiler or C library can touch.
+/// Keeps the digits of a number that no rounding of another compiler or C library can touch.
 inline std::string rounded(double value) {
   if (std::abs(value) < 1e-15) return "0";
   std::ostringstream text;

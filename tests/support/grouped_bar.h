@@ -33,7 +33,7 @@ struct Bar {
     for (const Vec3& X : rest) group.push_back(group_of(X));
     body.grouping = std::make_shared<const Grouping>(make_grouping(body, std::move(group)));
   }
-  /// Of half-planes.
+  /// Takes width and height in half-planes.
   template <class GroupOf>
   Bar(const Settings& given, int width, int height, const GroupOf& group_of)
       : Bar(given, test::fcc_box(width, width, height, r), group_of) {}

@@ -46,7 +46,7 @@ inline void put_sparse(const std::filesystem::path& path, const std::string& tex
   std::filesystem::resize_file(path, size);
 }
 
-/// By how much `job` has raised the largest memory of this process so far, bytes.
+/// Returns how much `job` has raised the largest memory of this process so far, bytes.
 template <class Job>
 double raised_memory(Job&& job) {
   const auto peak = [] {

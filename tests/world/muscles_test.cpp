@@ -60,7 +60,7 @@ std::uint32_t nearest_the_middle(const Points& points) {
   return best;
 }
 
-// Of one particle alone, so that the law holds for each: inner ones and those at the surface.
+// Muscle of one particle, so that the law holds for each: inner ones and those at the surface.
 TEST(Muscles, TheVirialStressOfAnAffineBodyIsTheActiveStressAlongTheTurnedFiber) {
   std::mt19937 random(1);
   for (const Points& rest : {test::fcc_ball(6, r), test::hcp_ball(6, r)})

@@ -21,9 +21,9 @@ namespace sinew {
 /// Whether SIGHUP was ignored when the program began, as under nohup.
 bool ignores_hangup();
 
-/// From now on SIGINT and SIGTERM only set a flag; a second one ends the program at once. SIGHUP,
-/// unless ignored, also sets the flag, however often it is received, and so does SIGPIPE: whoever
-/// reads the progress has left.
+/// Makes SIGINT and SIGTERM only set a flag from now on; a second one ends the program at once.
+/// SIGHUP, unless ignored, also sets the flag, however often it is received, and so does SIGPIPE:
+/// whoever reads the progress has left.
 void catch_stop_signals();
 
 bool stop_requested();

@@ -61,7 +61,7 @@ void declare_common(CLI::App& app, const About& about, Given& given) {
       .repeatable();
 }
 
-/// Of options that the help has.
+/// Lists names of options that the help has.
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())

@@ -8,7 +8,7 @@ namespace sinew {
 
 inline constexpr bool draws = SINEW_DRAWS;
 
-/// Of what is asked to draw where nothing does.
+/// Returns the error of what is asked to draw where nothing does.
 inline Error draws_nothing() {
   return bad_input("this sinew was built without VTK, which draws",
                    "build it with -DSINEW_VTK=ON, or look at runs with: sinew view DIR");

@@ -241,7 +241,7 @@ void check_installed() {
     throw bad_input("mpirun is not installed", "install it (Debian: apt-get install openmpi-bin)");
 }
 
-/// Of ranks on this machine, each of which is a process with LAMMPS in it.
+/// Checks the memory of ranks on this machine, each of which is a process with LAMMPS in it.
 void check_memory(int ranks, int cores) {
   constexpr double bytes_per_rank = 60e6;
   const double needed = ranks * bytes_per_rank, available = available_memory();

@@ -24,7 +24,7 @@ struct EngineOptions {
 
 void declare(OptionList& list, EngineOptions& options);
 
-/// As words of a command line.
+/// Spells options as words of a command line.
 std::vector<std::string> words_of(const EngineOptions& options);
 
 /// Throws bad input for an unknown engine, options that need one, and what is not installed.

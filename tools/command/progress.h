@@ -24,8 +24,8 @@ std::string progress_text(int frame, int frames, double time, double steps_per_s
 std::string iterations_text(int frame, int frames, double time, std::int64_t iterations,
                             double residual);
 
-/// Of drawing or measuring: "measuring 45 %  0:05 left". On a terminal it appears after a second;
-/// otherwise there is a line every ten seconds.
+/// Progress of drawing or measuring: "measuring 45 %  0:05 left". On a terminal it appears after a
+/// second; otherwise there is a line every ten seconds.
 class StageProgress {
  public:
   /// `out` is for tests.

@@ -113,7 +113,7 @@ std::string settings_help() {
 
 namespace {
 
-/// As roff prints it.
+/// Escapes text, so that roff prints it.
 std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) {

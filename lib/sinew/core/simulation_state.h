@@ -94,7 +94,7 @@ struct SimulationState {
   LedgerEntries ledger;
   LedgerEntries world_ledger;  ///< of obstacles, fields, muscles and pins
   double held_at_start = 0;    ///< kinetic energy of what pins hold, J
-  bool kicked = false;         ///< velocities are half a step ahead (velocity Verlet)
+  bool kicked = false;         ///< velocities are half a step behind positions (velocity Verlet)
   std::variant<MovingInDouble, MovingInSingle> moving;
   std::vector<std::uint32_t> order;  ///< each particle's place in the caller's order
   WholeNumbers whole_numbers;        ///< of single precision

@@ -58,7 +58,7 @@ struct EnginePieces {
 /// A moment of a run, without its particles.
 struct EngineMoment {
   std::int64_t steps = 0;
-  bool kicked = false;  ///< velocities are half a step ahead (velocity Verlet)
+  bool kicked = false;  ///< velocities are half a step behind positions (velocity Verlet)
   LedgerEntries ledger, world_ledger;
   double held_at_start = 0;              ///< kinetic energy of what is held, J
   std::vector<std::uint64_t> particles;  ///< on each rank

@@ -12,7 +12,7 @@
 
 namespace sinew {
 
-/// Of a cubic (FCC) crystal, in any unit of stress.
+/// Elastic constants of a cubic (FCC) crystal, in any unit of stress.
 struct CubicConstants {
   double C11, C12, C44;
 

@@ -9,7 +9,7 @@ namespace {
 double eq_1(const Material& material, double d) { return material.pair.force(d); }
 double eq_1_energy(const Material& material, double d) { return material.pair.potential(d); }
 
-/// Of eq. 1 the part below contact alone.
+/// Returns the part of eq. 1 below contact alone.
 double repulsion(const Material& material, double d) {
   return d < 2 * material.pair.r ? material.pair.force(d) : 0;
 }

@@ -8,7 +8,7 @@
 
 namespace sinew {
 
-/// By particle id; each list is empty where all of the body is as its material says.
+/// Values by particle id; each list is empty where all of the body is as its material says.
 struct LocalStrength {
   std::vector<double> volume = {};    ///< K_v against its change of volume, Pa
   std::vector<double> breaking = {};  ///< strain at which bonds break; of two parts the smaller
@@ -20,7 +20,7 @@ struct LocalStrength {
 /// A breaking strain and a yield shear that no bond reaches.
 inline constexpr double never_reached = 1e9;
 
-/// Of one particle; `common`: the material's.
+/// Returns the value of one particle; `common`: the material's.
 inline double value_at(const std::vector<double>& local, std::size_t id, double common) {
   return local.empty() ? common : local[id];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From engineering values (Young's modulus, density, damping) to the constants of the particles,
+// Turns engineering values (Young's modulus, density, damping) into the constants of the particles,
 // for closest-packed bodies with bonds of stiffness k at distance d0 = 2r.
 //
 //     const Material material = make_material(options, {radius, mass});
@@ -49,7 +49,7 @@ struct Material {
   double young_modulus() const;  ///< Pa, Hill average over directions
   double stiffness() const;      ///< the stiffest of contact, tension and bonds, N/m
   PackingStiffness packing() const;
-  /// Of the packing, in its own axes, Pa.
+  /// Returns those of the packing, in its own axes, Pa.
   CubicConstants constants() const;
 };
 
@@ -68,7 +68,7 @@ Material make_material(const MaterialOptions& settings, const PackedBody& body);
 /// The shear sqrt(D : D), D the deviator of the strain, of a bar that is pulled to its yield
 /// strain.
 double yield_shear(double yield_strain, double poisson_ratio);
-/// That of Poisson's ratio in the options: of bonds alone where no volume is kept.
+/// Returns Poisson's ratio in the options: of bonds alone where no volume is kept.
 double poisson_ratio_of(const MaterialOptions& settings);
 /// K_v of bonds `relative` times as stiff as the material's are at once, Pa.
 double local_volume_stiffness(const Material& material, double relative, double poisson_ratio);

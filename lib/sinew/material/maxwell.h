@@ -63,7 +63,7 @@ struct Branches {
   double relax(const BondSpring& spring, std::size_t entry, double distance);
 };
 
-/// Of the bonds of a solid.
+/// Branches of the bonds of a solid.
 class MaxwellBranches {
  public:
   MaxwellBranches(const BondStrength& strength, std::size_t nearest, std::size_t second);

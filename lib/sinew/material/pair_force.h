@@ -13,7 +13,7 @@
 
 namespace sinew {
 
-/// Of a bond.
+/// Spring of a bond.
 struct BondSpring {
   double length;     ///< at rest, m
   double stiffness;  ///< N/m

@@ -34,8 +34,8 @@ Triangles refined(Triangles surface, double longest);
 /// more sharply than the layer is thick.
 Triangles thickened(const Triangles& surface, double thickness);
 
-/// As the text of an OBJ file: points in m, without loss, then faces. read_surface() gives the same
-/// points and faces, in their order, where no point or face is twice in it.
+/// Returns the text of an OBJ file: points in m, without loss, then faces. read_surface() gives the
+/// same points and faces, in their order, where no point or face is twice in it.
 std::string obj_text(const Triangles& surface);
 
 }  // namespace sinew

@@ -95,7 +95,8 @@ inline double face_area(const Triangles& surface, const std::array<int, 3>& face
   return area_vector(surface, face).norm();
 }
 
-/// Of the tetrahedron of a face and a point, m^3: positive where the point is behind the face.
+/// Returns the volume of the tetrahedron of a face and a point, m^3: positive where the point is
+/// behind the face.
 inline double volume_below(const Triangles& surface, const std::array<int, 3>& face,
                            const Vec3& place) {
   const Vec3 a = surface.points[face[0]] - place, b = surface.points[face[1]] - place,

@@ -40,7 +40,7 @@ class Winding {
   double near_ = 0;
 };
 
-/// Of a surface with its caps.
+/// Returns the winding of a surface with its caps.
 Winding winding_of(const Surface& surface);
 
 }  // namespace sinew

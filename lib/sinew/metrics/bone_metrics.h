@@ -16,7 +16,7 @@
 
 namespace sinew {
 
-/// Of the particles that follow one bone most; not-a-number where there are none.
+/// Metrics of the particles that follow one bone most; not-a-number where there are none.
 struct BoneMetrics {
   double time = not_measured, bone = not_measured, followers = 0;
   double adherence_rms = not_measured, adherence_95 = not_measured, adherence_max = not_measured;

@@ -63,8 +63,8 @@ Mat3 virial(double force, const Vec3& apart, double d) {
   return -force / d * apart * apart.transpose();
 }
 
-/// Of a particle's volume energy U = (K_v / 2) V0 w (J - 1)^2: the stress, over V0. It is severed
-/// and keeps no volume once a bond broke.
+/// Returns the stress of a particle's volume energy U = (K_v / 2) V0 w (J - 1)^2, over V0. It is
+/// severed and keeps no volume once a bond broke.
 Mat3 volume_stress(const RestBody& rest, const FrameState& state, std::size_t i, bool severed) {
   const std::vector<double>& weight = rest.law.volume_weight;
   if (weight.empty() || weight[i] == 0 || severed) return Mat3::Zero();

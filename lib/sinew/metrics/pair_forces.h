@@ -36,7 +36,7 @@ bool knows_forces(const RestBody& rest, const FrameState& state);
 Mat3 virial_stress(const RestBody& rest, const FrameState& state,
                    std::span<const Neighbor> neighbors, std::size_t i);
 
-/// Of each particle; not-a-number where the forces are not known. In parallel.
+/// Finds the stress of each particle; not-a-number where the forces are not known. In parallel.
 std::vector<Mat3> stresses(const RestBody& rest, const FrameState& state);
 
 /// sqrt(3/2 dev s : dev s).

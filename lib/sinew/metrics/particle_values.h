@@ -34,7 +34,7 @@ struct ParticleValues {
   std::vector<double> turnover;      ///< (lost + gained) / neighbors at rest
   std::vector<double> pose_error;    ///< |x - q| from the rigid pose of its bone, m
   std::vector<double> weight;        ///< weight of its bone in it; empty where not known
-  /// Of the virial stress (pair_forces.h), Pa; empty where the forces are not known.
+  /// Equivalent of the virial stress (pair_forces.h), Pa; empty where the forces are not known.
   std::vector<double> von_mises;
 };
 
@@ -44,7 +44,7 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state);
 // Particle values as arrays to be written: tensors in ParaView's order of components, XX YY ZZ XY
 // YZ XZ for symmetric ones and row by row for F.
 
-/// Those of requestable_arrays() that are named, in the written order of the particles;
+/// Returns those of requestable_arrays() that are named, in the written order of the particles;
 /// not-a-number where a particle's neighbors do not define them, and stresses where the body's
 /// forces are not known. Uses positions and bones of the state. In parallel.
 std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
@@ -53,8 +53,8 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
 /// The body at rest as a frame, without velocities.
 FrameState state_at_rest(const RestBody& rest);
 
-/// Those of requested_arrays(words) that some particle of a state at rest has a value of. Throws
-/// bad input, with the reason, for another one unless it is meant by "all".
+/// Returns those of requested_arrays(words) that some particle of a state at rest has a value of.
+/// Throws bad input, with the reason, for another one unless it is meant by "all".
 std::vector<std::string_view> defined_arrays(const RestBody& rest, const FrameState& at_rest,
                                              std::string_view words);
 

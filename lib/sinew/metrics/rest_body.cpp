@@ -104,7 +104,7 @@ std::vector<Bound> bound_particles(const RestInput& input, const std::vector<Joi
     Bound bound{static_cast<std::uint32_t>(i), input.bone[i]};
     bound.foot = nearest_on(input.bones[bound.bone], input.positions[i]);
     bound.distance = (input.positions[i] - bound.foot).norm();
-    // By the foot and not the particle: the zone is a slab across the bones, including corners.
+    // Tests the foot, not the particle: the zone is a slab across the bones, including corners.
     bound.far = !near_joint(zones, bound.foot);
     all.push_back(bound);
   }
@@ -133,7 +133,7 @@ NeighborLists second_neighbors(const RestShape& shape, double range) {
   return second;
 }
 
-/// Of springs whose stiffness differs: sum k l^2 over a particle's bonds, over that of one inside.
+/// Sums k l^2 over a particle's bonds, over that of one inside, where springs differ in stiffness.
 std::vector<double> stiffness_shares(const RestBody& body, const ForcesOfPairs& law) {
   if (!law.factor || !law.second) return {};
   const double k = law.bond(0, 1), second = law.second(0, 1);  // of springs with f = k (l - d)

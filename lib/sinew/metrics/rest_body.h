@@ -28,7 +28,7 @@ struct ForcesOfPairs {
   /// The same between second neighbors at rest, which also act as others do; empty: no more.
   std::function<double(double, double)> second;
   double second_range = 0;  ///< m; pairs at rest that are closer, and no neighbors, are second ones
-  /// Of two particles: on the force of their bond; empty: 1.
+  /// Factor on the force of two particles' bond; empty: 1.
   std::function<double(std::uint32_t, std::uint32_t)> factor;
   /// Neighbors at rest farther apart than this hold no longer, m.
   double reach = std::numeric_limits<double>::infinity();

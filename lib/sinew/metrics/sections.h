@@ -33,8 +33,8 @@ struct Section {
 
 inline constexpr int sections_per_bone = 16;  ///< steps from head to tail, both ends included
 
-/// Of each bone the rings around it at even steps; none where the bone is outside the skin. Of
-/// nested rings the smallest counts. `near_joint` returns whether a point (at rest, m) lies in a
+/// Finds the rings around each bone at even steps; none where the bone is outside the skin. The
+/// smallest of nested rings counts. `near_joint` returns whether a point (at rest, m) lies in a
 /// joint zone.
 std::vector<Section> make_sections(const Triangles& surface, std::span<const MeasuredBone> bones,
                                    const std::function<bool(const Vec3&)>& near_joint);

@@ -49,7 +49,7 @@ inline double percentile(std::vector<double>& values, double percent) {
   return *place;
 }
 
-/// Of value(i) for all i < count; value is called from several threads.
+/// Collects value(i) for all i < count; value is called from several threads.
 template <class Value>
 Statistics statistics(std::size_t count, const Value& value) {
   constexpr std::size_t piece = 1024;

@@ -90,7 +90,7 @@ double residual_after_return(std::span<const FrameMetrics> frames, double radius
   return left && at_rest(frames.back(), radius) ? frames.back().displacement_rms : not_measured;
 }
 
-/// By how much the tip overshoots its last angle in a hold, on the side opposite to its start.
+/// Finds how far the tip overshoots its last angle in a hold, on the side opposite to its start.
 double overshoot_of(const Hold& hold, std::span<const FrameMetrics> frames) {
   if (hold.first == 0) return not_measured;  // there is no earlier angle
   const auto tip = [&](std::size_t i) { return frames[i].tip_angle; };

@@ -19,7 +19,7 @@
 
 namespace sinew {
 
-/// Of one metric over the frames in which it was measured; not-a-number when it never was.
+/// Values of one metric over the frames in which it was measured; not-a-number when it never was.
 struct MetricSummary {
   double min = not_measured, max = not_measured, mean = not_measured;
   double final = not_measured;  ///< in the last frame

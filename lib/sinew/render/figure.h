@@ -66,7 +66,7 @@ struct SheetOptions {
 /// and as Painter::draw does.
 Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
 
-/// As in the paper's figure 4: the surface above, the particles below, over time.
+/// Follows the paper's figure 4: the surface above, the particles below, over time.
 std::vector<SheetRow> surface_above_particles(Painter& painter,
                                               const std::vector<Snapshot>& snapshots);
 

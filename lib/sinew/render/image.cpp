@@ -40,7 +40,7 @@ int brightness(const std::uint8_t* pixel) {
   return (5 * pixel[0] + 9 * pixel[1] + 2 * pixel[2]) / 16;
 }
 
-/// Of the pixels in the row, which continues beyond both ends.
+/// Finds the brightness in the row, which continues beyond both ends.
 void brightness_of_row(const Image& image, int row, std::vector<int>& values) {
   const std::uint8_t* pixel = image.at(0, std::clamp(row, 0, image.height - 1));
   for (int x = 0; x < image.width; ++x) values[x + 1] = brightness(pixel + 3 * x);

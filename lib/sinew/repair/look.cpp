@@ -69,7 +69,7 @@ class PolygonsByPlace {
   std::unordered_map<Place3, std::vector<std::size_t>, PlaceHash> at_;
 };
 
-/// Those of a face; none where one of them does not exist.
+/// Returns the corners of a face; none where one of them does not exist.
 SurfaceLook::Corners picked(const PolygonLook::Corners& all, int polygon,
                             const std::array<std::size_t, 3>& corners, std::size_t there) {
   SurfaceLook::Corners picked{-1, -1, -1};

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t particles_per_piece = 4096;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Of a bone's length: how far feet of given weights may be beyond its ends. Bones of files share
+// Share of a bone's length that feet of given weights may be beyond its ends. Bones of files share
 // particles around joints, and a foot that stopped at the joint would rotate about it.
 constexpr double beyond_ends = 0.5;
 

@@ -29,7 +29,7 @@ struct Influence {
 
   /// In the rest pose.
   Vec3 foot_on(const Bone& its_bone) const { return its_bone.head() + foot * its_bone.axis(); }
-  /// From the foot to a particle at rest, m.
+  /// Returns the distance from the foot to a particle at rest, m.
   double distance_to(const Bone& its_bone, const Vec3& rest) const {
     return (rest - foot_on(its_bone)).norm();
   }
@@ -89,7 +89,7 @@ Binding bind_to_bones(const Points& rest, const Skeleton& skeleton, double parti
 /// Index of the bone whose segment is nearest to `point`; the lower index on ties.
 int nearest_bone(const Skeleton& skeleton, const Vec3& point);
 
-/// From a point to a bone's segment, m.
+/// Returns the distance from a point to a bone's segment, m.
 double distance_to(const Bone& bone, const Vec3& point);
 
 }  // namespace sinew

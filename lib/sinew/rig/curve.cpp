@@ -162,7 +162,7 @@ void put_turns(const RotationCurve& curve, const Span& span, RotationPiece& piec
   piece.c = {curve.values[span.key].coeffs(), as_4(first), as_4(second), as_4(third)};
 }
 
-/// As in glTF: component by component.
+/// Interpolates as glTF does: component by component.
 void put_tangents(const RotationCurve& curve, const Span& span, RotationPiece& piece) {
   const std::size_t k = span.key;
   piece.form = RotationPiece::Form::tangents;

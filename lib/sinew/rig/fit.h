@@ -4,11 +4,11 @@
 //     const Placement placement = fit_to(surface, skeleton);
 //     skeleton = placed(std::move(skeleton), placement);
 //
-// Of the 24 rotations that bring axes to axes, and those that bring the main axes of the skeleton
-// to those of the mesh, each with the scale and the place at which the boxes of both agree, the
-// best ones are improved until the bones lie along the middle of the mesh: the mean squared
-// distance from points of the mesh to the nearest bone, and from points of bones that lie outside
-// to the mesh, is least. Rotations by less are preferred among nearly equal ones.
+// Improves the best of the 24 rotations that bring axes to axes, and of those that bring the main
+// axes of the skeleton to those of the mesh, each with the scale and the place at which the boxes
+// of both agree, until the bones lie along the middle of the mesh: the mean squared distance from
+// points of the mesh to the nearest bone, and from points of bones that lie outside to the mesh, is
+// least. Rotations by less are preferred among nearly equal ones.
 #pragma once
 
 #include <sinew/core/options.h>

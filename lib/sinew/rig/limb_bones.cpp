@@ -141,7 +141,7 @@ class Maker {
         add_limb(static_cast<int>(i), {0, last_[limbs_[i].parent], true});
   }
 
-  /// From one limb to the other, as long as that is about straight.
+  /// Adds a bone from one limb to the other, as long as that is about straight.
   double add_root_between(const std::vector<int>& two) {
     const Course a(limbs_[two[0]]), b(limbs_[two[1]]);
     const double inner = a.inner(0);

@@ -66,8 +66,8 @@ std::optional<double> angle_about(const Vec3& axis, const KeyDefinition& key) {
   return radians(*key.angle);
 }
 
-/// From one key to the next: angles about one axis as given, of any size; otherwise the shortest
-/// rotation.
+/// Turns from one key to the next: by angles about one axis as given, of any size; otherwise by the
+/// shortest rotation.
 Vec3 turn_between(const KeyDefinition& from, const KeyDefinition& to, const Quat& start,
                   const Quat& end) {
   const auto given = to.axis ? to.axis : from.axis;

@@ -38,7 +38,7 @@ struct Rates {
   double lean, round, twist;
 };
 
-/// From omega = round (axis - direction) + lean about + twist direction.
+/// Solves omega = round (axis - direction) + lean about + twist direction.
 Rates rates_of(const Parts& parts, const Vec3& omega) {
   const Vec3 direction = rotation_by(parts.lean * parts.about) * parts.axis;
   const double sine = std::sin(parts.lean);

@@ -15,7 +15,7 @@
 
 namespace sinew {
 
-/// By how much a motion exceeds the limits of a joint, rad.
+/// Angles by which a motion exceeds the limits of a joint, rad.
 struct Excess {
   double swing = 0, twist = 0;
 

@@ -64,7 +64,7 @@ Vec3 head_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent)
   return earlier.bones[static_cast<std::size_t>(parent)].tail();
 }
 
-/// Of a bone with a length and no tail.
+/// Finds the direction of a bone with a length and no tail.
 Vec3 direction_of(Bones bones, std::size_t bone, const Skeleton& earlier, int parent) {
   const BoneDefinition& given = bones[bone];
   if (given.direction && given.direction->norm() > 0) return given.direction->normalized();
@@ -225,7 +225,7 @@ double size_of(const std::vector<Joint>& joints) {
   return box.diagonal().norm();
 }
 
-/// From head to tail; `unknown` where neither the joint nor its children give it.
+/// Points from head to tail; `unknown` where neither the joint nor its children give it.
 Vec3 along(const Joint& joint, const Children& children, double least, const Vec3& unknown) {
   if (joint.end && (*joint.end - joint.place).norm() > least) return *joint.end - joint.place;
   if (children.count > 0) {

@@ -105,7 +105,7 @@ struct BoneWeight {
   double weight = 0;  ///< > 0
 };
 
-/// Of n points.
+/// Weights of n points.
 struct BoneWeights {
   std::vector<std::uint32_t> first;  ///< n + 1 long; point i has [first[i], first[i + 1])
   std::vector<BoneWeight> weights;   ///< of each point the heaviest first, each bone once, sum 1

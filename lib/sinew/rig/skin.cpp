@@ -54,7 +54,7 @@ std::optional<Support> support_within(const CellGrid& grid, const Points& points
   return Support{std::move(near), h};
 }
 
-/// Of each vertex; the search is repeated twice as far for the few with too few particles.
+/// Finds supports of vertices; searches twice as far again for the few with too few particles.
 std::vector<Support> supports_of(const Points& vertices, const Points& points, double range) {
   std::vector<Support> supports(vertices.size());
   if (points.empty()) return supports;

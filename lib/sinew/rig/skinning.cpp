@@ -37,7 +37,7 @@ std::vector<NearVertex> nearest_within(const CellGrid& grid, const Points& verti
   return near;
 }
 
-/// Of each point; the search is repeated twice as far for those with too few.
+/// Finds vertices near each point; the search is repeated twice as far for those with too few.
 std::vector<std::vector<NearVertex>> nearest_of(const Points& vertices, const Points& points) {
   std::vector<std::vector<NearVertex>> near(points.size());
   Box box;

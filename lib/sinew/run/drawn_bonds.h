@@ -29,8 +29,8 @@ class DrawnBonds {
   const std::string& name() const { return name_; }
   const std::string& unit() const { return unit_; }  ///< empty for pure numbers
 
-  /// Those of frame `index` that are not broken. Throws bad input, naming the file, where it is
-  /// damaged or of another body.
+  /// Reads bonds of frame `index` that are not broken. Throws bad input, naming the file, where it
+  /// is damaged or of another body.
   std::vector<DrawnBond> at(std::size_t index) const;
 
  private:

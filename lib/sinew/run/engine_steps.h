@@ -43,7 +43,7 @@ class EngineSteps {
   /// Brings the simulation to the engine's next state. Throws as Simulation::step() does where the
   /// engine's step fails.
   void advance(Simulation& simulation, const std::function<Interruption()>& wanted);
-  /// Of the last state, without its ledger; with nothing before.
+  /// Returns the moment of the last state, without its ledger; with nothing before.
   const EngineMoment& moment() const { return moment_; }
   /// Ends the engine and removes its files, which a failed run keeps.
   void finish();

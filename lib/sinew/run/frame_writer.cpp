@@ -145,7 +145,7 @@ std::vector<Series*> FrameWriter::all_series() {
   return all;
 }
 
-/// Those of kept frames, and of what was written before the frames.
+/// Begins with checksums of kept frames, and of what was written before the frames.
 void FrameWriter::begin_checksums() {
   std::set<std::string> begun{"body.vtu", "scene.yaml"}, stay = begun;
   for (const Series* series : all_series()) {

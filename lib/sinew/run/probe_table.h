@@ -17,8 +17,8 @@
 
 namespace sinew {
 
-/// Of all particles by id: components XX YY ZZ XY YZ XZ of tensors, not-a-number where they are not
-/// known.
+/// Values of all particles by id: components XX YY ZZ XY YZ XZ of tensors, not-a-number where they
+/// are not known.
 struct ProbedValues {
   std::span<const double> strain, stress;  ///< 6 each; Pa
   const Points& force;                     ///< of the world, N; empty: none

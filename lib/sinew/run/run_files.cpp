@@ -106,7 +106,7 @@ Energies energies_of(const Dataset& data) {
           field_of_motion(data, "work_of_world")};
 }
 
-/// From the displacements, where they are written: these are exact for small ones.
+/// Uses the displacements, where they are written: these are exact for small ones.
 Points positions_in(const RunFiles& run, const Dataset& data) {
   if (!find(data.point_columns, "displacement")) return data.points;
   Points positions = vectors(data.point_columns, "displacement");
@@ -193,7 +193,7 @@ void trim_rows(RunFiles& run) {
   }
 }
 
-/// Of each so many rows the first: the moments at which particles are written.
+/// Picks the first of each so many rows: the moments at which particles are written.
 std::vector<PvdRow> thinned(const std::vector<PvdRow>& rows, int every) {
   std::vector<PvdRow> some;
   for (std::size_t i = 0; i < rows.size(); i += static_cast<std::size_t>(every))

@@ -111,7 +111,7 @@ void refuse_foreign_files(const RunFolder& folder) {
     if (*part != '\0') refuse_link(folder.path / part);
   if (folder.used()) return;
   for (const fs::path& file : files_of_run(folder)) {
-    // Of a run killed before it had written its record.
+    // Remains of a run killed before it had written its record.
     if (file.filename().string().front() == '.' && file.extension() == ".tmp") continue;
     throw bad_input(Place{file.string()}, "exists, but no run.json of a run beside it",
                     "choose another folder with -o, or move the file away");

@@ -14,7 +14,8 @@
 
 namespace sinew {
 
-/// By the numbers in array material of the particles: 0 is what no entry of the scene's list holds.
+/// Lists names by the numbers in array material of the particles: 0 is what no entry of the scene's
+/// list holds.
 std::vector<std::string> names_of_materials(const RunFiles& run);
 
 /// The index of a particle of the body in the frames; -1 where they do not contain it.

@@ -45,8 +45,8 @@ Mat3 lattice_axes(const BodyOptions& body);
 /// Reads the meshes that a scene names, as one surface. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);
 
-/// Of the material around each place of `rest` (m), over the body's: the last of the scene's bodies
-/// in which it lies; empty: the same throughout.
+/// Returns the stiffness around each place of `rest` (m), over the body's: of the last of the
+/// scene's bodies in which it lies; empty: the same throughout.
 std::vector<double> stiffness_of(const Settings& settings, const Surface& surface,
                                  const Points& rest);
 /// What the mesh's file says of the surface made from it, beside the shape.

@@ -62,7 +62,7 @@ double additional_numbers(const OutputSettings& output, const Body& body) {
   return numbers;
 }
 
-/// Of a particle inside, each bond shared by two.
+/// Counts bonds of a particle inside, each shared by two.
 double bonds_of_one(const Body& body) { return body.material.bond.second > 0 ? 9 : 6; }
 
 }  // namespace

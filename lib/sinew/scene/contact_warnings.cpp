@@ -147,7 +147,7 @@ std::size_t thin_out(Pairs& pairs, std::size_t limit) {
   return stride;
 }
 
-/// That touch, of bones of which neither holds the other.
+/// Finds pairs that touch, of bones of which neither holds the other.
 Pairs pairs_of_limbs(const Body& body, const NeighborLists& lists) {
   Pairs pairs;
   for (Particle i = 0; i < body.rest.size(); ++i)

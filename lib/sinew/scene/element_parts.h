@@ -31,9 +31,10 @@ class ElementParts {
 
   /// Ascending: of a part that faces a direction those of its faces.
   std::vector<std::uint32_t> nodes(const PartSettings& part, const std::string& path) const;
-  /// Of the surface, by their centers.
+  /// Finds faces of the surface by their centers.
   std::vector<ElementFace> faces(const PartSettings& part, const std::string& path) const;
-  /// By their centers. Also throws for a part that faces a direction: a skin has no thickness.
+  /// Finds elements by their centers. Also throws for a part that faces a direction: a skin has no
+  /// thickness.
   std::vector<std::uint32_t> elements(const PartSettings& part, const std::string& path) const;
 
  private:

@@ -190,7 +190,7 @@ NodeSupport support_of(const SupportSettings& given, const std::string& path,
   return support;
 }
 
-/// By node and axis, the support that holds it.
+/// Supports by the node and axis that they hold.
 using Holders = std::map<std::pair<std::uint32_t, int>, const NodeSupport*>;
 
 Holders holders_of(const Settings& settings, const std::vector<NodeSupport>& supports) {
@@ -353,8 +353,8 @@ double turn_of(const std::vector<NodeSupport>& supports, double from, double to)
   return most;
 }
 
-/// Of each frame, as the static method has them; and of moments between, where supports turn: what
-/// goes straight from one place to another does not turn.
+/// Returns the times of frames, as the static method has them, and of moments between where
+/// supports turn: what goes straight from one place to another does not turn.
 std::vector<double> step_times(const FrameTimes& frames, const std::vector<NodeSupport>& supports) {
   const double max_turn = radians(15);
   std::vector<double> times = {0};

@@ -22,7 +22,7 @@ namespace {
 constexpr double affine_distance = 1, cubic_distance = 0.52;
 constexpr double with_layers = 0.39, layers_measured = 45;
 
-/// Of the widest bone: within half a radius of the motion without groups.
+/// Returns the distance of the widest bone: within half a radius of the motion without groups.
 double cubic_distance_of(const Body& body) {
   double widest = 0;
   for (const double section : body.binding.cross_section) widest = std::max(widest, section);

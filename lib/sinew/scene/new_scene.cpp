@@ -111,7 +111,7 @@ double thin_inner(const std::vector<Limb>& limbs) {
   return std::numeric_limits<double>::infinity();
 }
 
-/// As a person writes it.
+/// Rounds to what a person writes.
 double three_figures(double value) {
   const double step = std::pow(10, std::floor(std::log10(value)) - 2);
   const double steps = std::round(value / step), parts = std::round(1 / step);
@@ -145,7 +145,7 @@ bool too_coarse(const Particles& particles, std::size_t parts) {
          static_cast<double>(within) < min_within * static_cast<double>(particles.size());
 }
 
-/// By the thickness of limbs, within what a first picture needs and takes.
+/// Chooses by the thickness of limbs, within what a first picture needs and takes.
 double usual_radius(double inner, double volume) {
   return three_figures(
       std::clamp(inner / across, radius_for_count(volume, most), radius_for_count(volume, fewest)));

@@ -41,7 +41,7 @@ struct UnitGuess {
   std::string why;
 };
 
-/// From the format and the longest side of the box, as the file has it.
+/// Guesses by the format and the longest side of the box, as the file has it.
 UnitGuess guess_unit(const std::filesystem::path& mesh, double longest);
 
 struct UpGuess {
@@ -49,7 +49,7 @@ struct UpGuess {
   std::string why;
 };
 
-/// From the format, and from the axis in which the body stands on 0, as the file has it.
+/// Guesses by the format, and by the axis in which the body stands on 0, as the file has it.
 UpGuess guess_up(const std::filesystem::path& mesh, const Box& box);
 
 // What a new scene is made of, before it is text.

@@ -26,7 +26,7 @@ Vec3 center_of(const Triangles& surface, const std::array<int, 3>& face) {
   return (surface.points[face[0]] + surface.points[face[1]] + surface.points[face[2]]) / 3;
 }
 
-/// Of a mesh that is placed as the body's.
+/// Returns the winding of a mesh that is placed as the body's.
 Winding inside_of(const Settings& settings, const std::string& mesh, const std::string& path) {
   BodyOptions file = settings.body;
   file.mesh = mesh;

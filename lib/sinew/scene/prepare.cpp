@@ -101,14 +101,14 @@ bool is_static(const Settings& settings) {
 
 constexpr double max_steps = 2e9;  // files count them in 32 bits
 
-/// Of a scene that asks for a damping ratio: what gives it to the body.
+/// Gives the body the damping ratio, where the scene asks for one.
 void set_damping_ratio(const Settings& settings, Body& body) {
   if (!settings.material.damping_ratio || is_static(settings)) return;
   const ElasticModes modes = elastic_modes(body);
   if (!modes.empty()) body.material.damping = modes.damping_for(*settings.material.damping_ratio);
 }
 
-/// Of a rig that gives both bones and motion only once.
+/// Returns warnings only once for a rig that gives both bones and motion.
 std::vector<std::string> warnings_of(const SceneFiles& files) {
   std::vector<std::string> warnings = files.skeleton.rig.warnings;
   if (files.motion.warnings != warnings)

@@ -33,7 +33,7 @@ namespace sinew {
 Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skeleton& skeleton,
                    const Points& rest, double radius);
 
-/// Of a scene's particles; a damping ratio apart.
+/// Returns the material of a scene's particles, a damping ratio apart.
 Material material_of(const Settings& settings, const Particles& particles);
 
 /// What differs from particle to particle, as in Body.

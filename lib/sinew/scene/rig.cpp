@@ -54,7 +54,7 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
   return motion;
 }
 
-/// As section motion specifies, in the scene's directions and lengths.
+/// Plays `clip` as section motion specifies, in the scene's directions and lengths.
 Motion in_scene(Motion clip, const Settings& settings) {
   Motion motion =
       at_keys(settings, "motion.", [&] { return played(std::move(clip), settings.motion); });

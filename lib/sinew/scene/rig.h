@@ -12,7 +12,7 @@
 
 namespace sinew {
 
-/// From the bones and tracks in the scene itself. Throws bad input, with the scene's line.
+/// Converts the bones and tracks in the scene itself. Throws bad input, with the scene's line.
 Skeleton skeleton_of(const Settings& settings);
 Motion motion_of(const Settings& settings, const Skeleton& skeleton);
 

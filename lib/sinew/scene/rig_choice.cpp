@@ -35,7 +35,7 @@ struct Axes {
 
 constexpr std::array<Axes, 2> usual_axes = {{{Axis::y, Axis::z}, {Axis::z, std::nullopt}}};
 
-/// Of the bones' length.
+/// Finds the share of the bones' length that is inside.
 double share_inside(const Skeleton& skeleton, const Winding& winding) {
   double inside = 0, all = 0;
   for (const Bone& bone : skeleton.bones)

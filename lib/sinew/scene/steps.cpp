@@ -53,7 +53,7 @@ StepChoice steps_of(const Settings& settings, const Body& body) {
 
 namespace {
 
-/// By bone: the farthest from its axis that it holds a particle, m.
+/// Finds the farthest from its axis that each bone holds a particle, m.
 std::vector<double> reach_of_bones(const Body& body) {
   std::vector<double> reach(body.skeleton.size(), 0.0);
   for (std::size_t i = 0; i < body.rest.size(); ++i)

@@ -26,7 +26,7 @@ struct FrameTimes {
   int count = 0;                 ///< after that at 0
 
   double at(int frame) const { return std::min(frame * interval, end); }
-  /// Of what comes before a frame, s.
+  /// Returns the time since the frame before, s.
   double before(int frame) const { return is_cut(frame) ? end - at(frame - 1) : interval; }
   /// Whether it comes sooner than a whole interval after the one before.
   bool is_cut(int frame) const {
@@ -57,7 +57,7 @@ inline constexpr double max_carried = 0.2;
 /// An upper bound of how far bones carry any particle in one step, in radii.
 double farthest_carried(const Prepared& prepared);
 
-/// Of a scene of the static method: its frames are moments at which the body is at rest.
+/// Plans a scene of the static method: its frames are moments at which the body is at rest.
 LoadSteps load_steps_of(const Settings& settings, const Prepared& prepared);
 
 // The stepper that a run uses.
@@ -71,7 +71,7 @@ struct StepperChoice {
 /// The cell stepper has one precision, double, and no vector instructions.
 StepperChoice stepper_choice(const SolverSettings& solver);
 
-/// As the scene's keys spell them.
+/// Spells them as the scene's keys do.
 const char* name_of(NeighborSearch search);
 const char* name_of(Precision precision);
 

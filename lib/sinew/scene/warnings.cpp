@@ -154,7 +154,7 @@ void warn_of_unit(const Body& body, Warnings& warnings) {
                      (size > large ? "set body.unit to mm or cm" : "make body.scale larger"));
 }
 
-/// By bone: the distance from it, m, beyond which a particle's lever arm is too long.
+/// Finds the distance from each bone, m, beyond which a particle's lever arm is too long.
 std::vector<double> longest_arms(const Body& body) {
   const double half = bounds(body.rest).diagonal().norm() / 2;
   std::vector<double> arms;

@@ -27,11 +27,11 @@ struct BoneStiffness {
   double planes;         ///< half-planes of particles across the body there
   double lack;           ///< share of the bending stiffness that so few of them lack, at most
 
-  /// That a bending body shows, Pa.
+  /// Returns the modulus that a bending body shows, Pa.
   double bending_modulus() const { return young_modulus * (1 - lack); }
 };
 
-/// Of the bones that hold particles.
+/// Finds the stiffness along each bone that holds particles.
 std::vector<BoneStiffness> stiffness_along_bones(const Body& body);
 
 /// Adds a line where a bending body shows another modulus than that, by over 10 % at some bone.

@@ -171,7 +171,7 @@ Field<Owner> may_lack(std::string_view word, Field<Owner> row) {
   return row;
 }
 
-/// Of section output: table_of_output.cpp.
+/// Returns rows of section output: table_of_output.cpp.
 std::vector<Field<Settings>> output_rows();
 
 // Names a member: SINEW_AT(Settings, body.radius) is a function from Settings& to that member.

@@ -16,7 +16,7 @@ namespace sinew {
 namespace {
 
 constexpr double shortest = 1.0 / 64;  // of the step, before a body counts as unstable
-// Of the shear beyond yield, what flows in an iteration.
+// Share of the shear beyond yield that flows in an iteration.
 constexpr double share_of_flow = 0.1;
 constexpr double near_rounding = 20;  // times the noise, which is an estimate
 constexpr double at_rounding = 3;     // times the noise: forces that are nothing else

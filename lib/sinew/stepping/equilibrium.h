@@ -63,8 +63,8 @@ class Relaxation {
 
   bool done() const { return now_.at_rest >= steps_.count; }
   void begin_iteration() { ++now_.iterations; }
-  /// Of the bones and the surroundings in this iteration; of the moment where the body is at rest,
-  /// s.
+  /// Returns the time of the bones and the surroundings in this iteration; of the moment where the
+  /// body is at rest, s.
   double time() const;
   double step() const { return step_ * now_.shortened; }  ///< s
   double keep() const;  ///< the share of the velocities that it leaves

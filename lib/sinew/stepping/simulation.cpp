@@ -264,7 +264,7 @@ void Simulation::advance(std::int64_t steps) {
   }
 }
 
-/// That many at once: until their size changes, or groups are looked at.
+/// Returns how many to make at once: until their size changes, or groups are looked at.
 std::int64_t Simulation::steps_of_one_size(std::int64_t most) const {
   constexpr std::int64_t at_once = 64;  // whose poses are kept
   most = std::min(most, at_once);

@@ -50,31 +50,31 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// From the start on, steps are of the sizes in the plan. Call it before the first step.
+  /// Makes steps of the sizes in the plan, from the start on. Call it before the first step.
   void follow(StepPlan plan);
 
-  /// From the start on, steps are iterations that bring an undamped() body to rest at one moment
-  /// after another; time() is that of its bones and surroundings. Call it before the first step.
-  /// Throws bad input for the reference stepper.
+  /// Turns steps, from the start on, into iterations that bring an undamped() body to rest at one
+  /// moment after another; time() is that of its bones and surroundings. Call it before the first
+  /// step. Throws bad input for the reference stepper.
   void relax(LoadSteps steps);
   /// What it has come to; none where it was not asked to.
   const Relaxation* relaxation() const;
 
-  /// From now on, groups of particles change as the body moves. Throws bad input for the reference
+  /// Changes groups of particles as the body moves, from now on. Throws bad input for the reference
   /// stepper.
   void group_as_it_moves(const DynamicOptions& options);
   /// Lost where particles joined groups, J; part of the dissipation.
   double lost_by_merging() const;
   std::int64_t regroupings() const;
 
-  /// From now on the bones move so; at the present moment the pose should be the same. Throws bad
+  /// Moves the bones so from now on; at the present moment the pose should be the same. Throws bad
   /// input where there are groups of particles, static or dynamic: they are made for one motion.
   void play(Motion motion);
 
-  /// From now on steps are of this size, s, which is below the limit. Throws bad input where they
-  /// follow a plan or are iterations, and for a size that is not positive.
+  /// Makes steps of this size, s, which is below the limit, from now on. Throws bad input where
+  /// they follow a plan or are iterations, and for a size that is not positive.
   void set_time_step(double step);
-  /// From now on the body is of this material, a variant of its own: particles, bonds and what has
+  /// Gives the body this material, a variant of its own, from now on: particles, bonds and what has
   /// become of them stay. Throws bad input for another model, size or mass of particles, other
   /// neighbors at rest, and where there are groups of particles.
   void set_material(const Material& material);
@@ -85,7 +85,7 @@ class Simulation {
   /// The particles stay where they were before the step; bonds that broke in it stay broken.
   void step() { advance(1); }
   void advance(std::int64_t steps);
-  /// Of the step that failed, in the order of the particles.
+  /// Lists those of the step that failed, in the order of the particles.
   const std::vector<Offender>& offenders() const;
 
   double time() const;  ///< s

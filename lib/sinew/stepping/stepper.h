@@ -94,7 +94,7 @@ class Stepper {
   /// to `sums`. Ends with a step that fails, in which no particle moves; bonds that broke in it
   /// stay broken.
   virtual void advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) = 0;
-  /// Of the steps that follow, s; velocities stay as they are.
+  /// Sets the size of the steps that follow, s; velocities stay as they are.
   virtual void set_step(double step) = 0;
 
   // What is asked for at a moment that no step has left behind.
@@ -103,9 +103,9 @@ class Stepper {
   virtual Balance evaluate(const TimedPose& now, Forces& forces) = 0;
   /// Positions and velocities, in the caller's order. What pins hold is where they hold it then.
   virtual void read(const TimedPose& now, Particles& particles) = 0;
-  /// As evaluated last.
+  /// Returns those evaluated last.
   virtual WorldReactions reactions() const { return {}; }
-  /// By particle in the caller's order; none where the material has no bonds.
+  /// Counts by particle in the caller's order; none where the material has no bonds.
   virtual std::vector<std::int32_t> broken_bonds() const { return {}; }
   virtual void read(BondRest&) const {}
   virtual ListCounts counts() const { return {}; }
@@ -131,7 +131,7 @@ class Stepper {
   virtual void regroup() {}
   /// The same without a change of the grouping: velocities have changed.
   virtual void fit_groups() {}
-  /// By cell of the body (`cell`: of each particle, by id), after a step.
+  /// Sums by cell of the body (`cell`: of each particle, by id), after a step.
   virtual std::vector<HeldCell> held(std::span<const std::int32_t>, std::size_t) const {
     return {};
   }

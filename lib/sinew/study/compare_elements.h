@@ -45,8 +45,8 @@ struct ComparedProbe {
   Points elements, run;
 };
 
-/// Of a support of the run's scene, one per frame: its force on the body, N, of elements with the
-/// loads on held nodes, and the mean displacement of its part, m.
+/// Force of a support of the run's scene on the body, N, of elements with the loads on held nodes,
+/// and mean displacement of its part, m, one per frame.
 struct ComparedSupport {
   std::string name;
   Points elements_force, run_force, elements_displacement, run_displacement;
@@ -70,7 +70,7 @@ ElementComparison compare_elements(const std::filesystem::path& run,
 
 /// The distances in parts of the largest displacement, then each probe along each axis.
 std::vector<Chart> element_charts(const ElementComparison& compared);
-/// Of supports that move one way: their largest force over their largest displacement.
+/// Plots supports that move one way: their largest force over their largest displacement.
 std::vector<LawCurve> element_curves(const ElementComparison& compared);
 
 /// A row per frame: the columns above, then of each probe its displacement, and of each support

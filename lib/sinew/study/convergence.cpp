@@ -100,7 +100,7 @@ double ratio_of(const Sample* s, double order) {
   return (power(s[2]) - power(s[1])) / (power(s[1]) - power(s[0]));
 }
 
-/// By bisection: the ratio ascends with the order.
+/// Bisects: the ratio ascends with the order.
 double order_of(const Sample* s) {
   constexpr double least = 0.05, most = 10;
   constexpr int halvings = 60;
@@ -114,7 +114,7 @@ double order_of(const Sample* s) {
   return (low + high) / 2;
 }
 
-/// Of the values, in their unit.
+/// Returns the rounding of the values, in their unit.
 double rounding_of(const std::vector<Sample>& samples) {
   double most = 0;
   for (const Sample& sample : samples) most = std::max(most, std::abs(sample.value));

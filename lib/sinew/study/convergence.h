@@ -20,7 +20,7 @@ struct ContinuumLimit {
   double order = not_measured;
 };
 
-/// Of values at sizes above 0, all different, in any order.
+/// Finds the limit of values at sizes above 0, all different, in any order.
 ///
 /// A body of particles differs from its continuum by a term of its surface, of the first order, and
 /// by terms of the second: the limit is that of a parabola. How well the layers of a packing fit

@@ -43,7 +43,7 @@ struct Study {
   std::vector<std::string> remarks;  ///< sentences on what could not be compared, and why
 };
 
-/// Of two runs or more. Throws bad input for folders that are not runs, for one that is named
+/// Studies two runs or more. Throws bad input for folders that are not runs, for one that is named
 /// twice, and for runs without a common time; what measuring throws.
 Study study_runs(const std::vector<std::filesystem::path>& folders, const MeasureOptions& how);
 

@@ -41,7 +41,7 @@ struct Load {
 Load force_load(const std::string& name, const std::vector<std::uint32_t>& particles,
                 const std::vector<double>& shares, const Vec3& force, const Points& rest);
 
-/// As many particles each corner of a pressure follows: of two layers, at least.
+/// Number of particles that each corner of a pressure follows: of two layers, at least.
 inline constexpr std::size_t followed_by_corners = 12;
 
 /// No side of a pressed face need be shorter, in radii: each corner pushes as many particles of the
@@ -85,7 +85,7 @@ class LoadNow {
     if (!pressed_.empty()) sum += scale_ * load_->pressure * pressed_.force(k);
     return sum;
   }
-  /// Of its forces as found last, those of a pressure by their lengths, N.
+  /// Sums its forces as found last, those of a pressure by their lengths, N.
   double size() const {
     return std::abs(scale_) * (load_->force.norm() + std::abs(load_->pressure) * pressed_.size());
   }

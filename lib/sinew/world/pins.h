@@ -29,7 +29,7 @@ struct Pinned {
   int bone = no_bone;  ///< of a pin
   /// The support that holds its x, y and z; none at all: a pin holds it.
   std::array<std::int32_t, 3> support = {no_support, no_support, no_support};
-  /// Of an oblique roller, the first of these: the direction along which it holds, of length 1.
+  /// Direction along which an oblique roller, the first of these, holds, of length 1.
   Vec3 along = Vec3::Zero();
 
   bool is_oblique() const { return !along.isZero(0); }

@@ -85,7 +85,7 @@ void PressedFaces::order(const std::vector<std::array<int, 3>>& faces,
     face_.push_back({corner(f, 0), corner(f, 1), corner(f, 2)});
 }
 
-/// Of the corners `now`, as many steps after they were found last: for how many forces may hold.
+/// Finds for how many steps forces may hold at corners `now`, as many steps after the last ones.
 int PressedFaces::planned(const std::vector<Four>& now) const {
   std::vector<double> squares(face_.size());
   // The root mean square over faces of differences of their sides, over those.

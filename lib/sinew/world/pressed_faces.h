@@ -61,7 +61,7 @@ class PressedFaces {
   /// Adds what later forces depend on: of the steps, and of each corner its place and motion.
   void save(std::vector<double>& state) const;
   std::size_t saved_size() const { return empty() ? 0 : 3 + 6 * corner_.size(); }
-  /// From saved_size() numbers, which are finite. Returns whether they can be such.
+  /// Reads saved_size() numbers, which are finite. Returns whether they can be such.
   bool restore(const double* state);
   void forget();  ///< what was saved and found
 

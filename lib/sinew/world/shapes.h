@@ -54,7 +54,7 @@ struct MeshShape {
 
 using Shape = std::variant<PlaneShape, SphereShape, CapsuleShape, BoxShape, MeshShape>;
 
-/// Of `point` from `shape`, both in the shape's own coordinates.
+/// Measures `point` from `shape`, both in the shape's own coordinates.
 SignedDistance signed_distance(const Shape& shape, const Vec3& point);
 
 /// Whether the signed distance of `point` may be below `range` (m >= 0): a cheap test.

@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-// Of the contact's own stiffness k, and of sqrt(k m).
+// Shares of the contact's own stiffness k, and of sqrt(k m).
 constexpr double softer_across = 0.5, damped_across = 0.25;
 constexpr double beyond_second = 3.1;  // in radii; second neighbors of a lattice are 2.83 apart
 
@@ -34,7 +34,7 @@ bool SlidingContacts::rub(std::int32_t a, std::int32_t b) const {
          apart_at_rest_;
 }
 
-/// As long as it was, across the contact as it is now.
+/// Returns the stretch as long as it was, across the contact as it is now.
 Vec3 SlidingContacts::stretch_of(std::int32_t id, const Touch& touch) const {
   const std::vector<Spring>& springs = stretched_[static_cast<std::size_t>(id)];
   const auto found = std::find_if(springs.begin(), springs.end(), [&](const Spring& spring) {

@@ -24,7 +24,7 @@ struct Support {
   std::string name;
   std::vector<std::uint32_t> particles;            ///< that it holds, by id, ascending
   std::array<bool, 3> holds = {true, true, true};  ///< their displacement along x, y, z
-  /// Of its frame, which rests at `pivot` along the scene's axes; none: it does not move.
+  /// Motion of its frame, which rests at `pivot` along the scene's axes; none: it does not move.
   ObstacleMotion motion = {};
   Vec3 pivot = Vec3::Zero();  ///< at rest, m; rotations and moments are about it
   Vec3 along = Vec3::Zero();  ///< instead of x, y, z: a direction, of length 1; 0: none

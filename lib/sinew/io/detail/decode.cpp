@@ -77,8 +77,8 @@ struct Blocks {
   std::vector<std::uint64_t> starts{0};  ///< of each compressed block, and the end of the last one
 };
 
-/// From the counts before them: their number, their size, that of the last one if it is shorter
-/// (else 0) and the compressed size of each.
+/// Takes blocks by the counts before them: their number, their size, that of the last one if it is
+/// shorter (else 0) and the compressed size of each.
 std::optional<Blocks> take_blocks(std::string_view& data, const Coding& coding,
                                   std::uint64_t count) {
   auto ahead = data;

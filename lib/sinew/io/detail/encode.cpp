@@ -151,7 +151,7 @@ class StoredPiece {
   }
   unsigned char* bytes() { return reinterpret_cast<unsigned char*>(values_.data()); }
   std::size_t size() const { return (end_ - begin_) * array_.size; }  ///< of [begin, end), bytes
-  /// Of the rows that begin in it.
+  /// Finds the range of the rows that begin in it.
   ValueRange range() {
     return range_of_bytes(bytes() + (first_ - begin_) * array_.size, last_ - first_, width_,
                           array_.type);

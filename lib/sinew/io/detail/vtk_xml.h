@@ -20,7 +20,7 @@ struct VtkXmlFile {
   std::vector<XmlElement> elements;
   VtuArrays arrays;
 
-  /// Of the grid itself. Throws bad input where there is none.
+  /// Returns the element of the grid itself. Throws bad input where there is none.
   const XmlElement& grid() const;
 
   /// The elements of each piece: the first is the piece, those within it follow.
@@ -31,7 +31,7 @@ struct VtkXmlFile {
                                            const std::string& group) const;
 };
 
-/// Of a file of any writer: as text, base64 or appended data, compressed by ZLib, LZ4 or not.
+/// Reads a file of any writer: as text, base64 or appended data, compressed by ZLib, LZ4 or not.
 /// `text` must outlive it. Throws bad input where that is no such file, cut short, or encoded in a
 /// manner that sinew does not read.
 VtkXmlFile vtk_xml_file(std::string_view text);

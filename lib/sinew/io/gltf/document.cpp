@@ -140,7 +140,7 @@ class Field {
   }
   std::string text_or_none() const { return given() ? text() : std::string(); }
 
-  /// Of an object, "" where it has none. Characters that cannot be printed in a line become '?'.
+  /// Returns the name of an object, or "". Characters that cannot be printed in a line become '?'.
   std::string given_name() const {
     std::string name = (*this)["name"].text_or_none();
     const auto unprintable = [](unsigned char c) { return c < 0x20 || c == 0x7f; };

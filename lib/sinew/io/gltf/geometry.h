@@ -41,7 +41,7 @@ struct GltfTriangles {
   std::vector<GltfVertex> sources;  ///< n
 };
 
-/// Those of the default scene, at rest: skinned ones in their bind pose.
+/// Returns shapes of the default scene, at rest: skinned ones in their bind pose.
 std::vector<GltfShape> gltf_shapes(const CheckedGltf& gltf);
 
 /// All shapes in order, as read_gltf() says. Throws bad input (without the path) for too many

@@ -13,7 +13,7 @@
 namespace sinew {
 namespace {
 
-/// Of a mesh of a node.
+/// Primitive in the mesh of a node.
 using PrimitivePlace = std::pair<int, int>;  ///< node, primitive
 
 /// The values of a primitive's attributes, read once each.

@@ -43,7 +43,7 @@ std::vector<std::size_t> taken_samples(const CachedPoints& cache, std::size_t by
   return taken;
 }
 
-/// From x forward and z up to z forward and y up: x y z becomes y z x.
+/// Turns x forward and z up to z forward and y up: x y z becomes y z x.
 Floats turned(Floats xyz) {
   for (auto at = xyz.begin(); at != xyz.end(); at += 3) std::rotate(at, at + 1, at + 3);
   return xyz;
@@ -77,7 +77,7 @@ class Moments {
   const Floats& first() const { return first_; }
   const Floats& first_normals() const { return first_normals_; }  ///< empty: none
 
-  /// From the first sample to that of a target.
+  /// Change from the first sample to that of a target.
   struct Change {
     Floats places, normals;
   };
@@ -206,8 +206,8 @@ OrderedJson targets_of(Moments& moments, Contents& contents) {
   return targets;
 }
 
-/// Those of the mesh's file for the patches that they are named by; others that these name are
-/// added.
+/// Returns materials of the mesh's file for the patches that name them; others that patches name
+/// are added.
 GltfMaterials materials_of(SplitSurface& surface, const SurfaceLook& look) {
   GltfMaterials materials = look.gltf;
   for (SplitSurface::Patch& patch : surface.patches) {

@@ -139,7 +139,7 @@ class Binder {
   GltfBindPose pose() const { return pose_; }
 
  private:
-  /// By its first joint that another skin has already bound, else by its topmost one.
+  /// Places a skin by its first joint that another skin has already bound, else by its topmost one.
   Affine place_of_skin(const std::vector<int>& places, const std::vector<Affine>& inverses) const {
     std::size_t top = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {

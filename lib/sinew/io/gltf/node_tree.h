@@ -43,7 +43,7 @@ struct GltfPlace {
   Affine affine() const;
 };
 
-/// As given in the file.
+/// Returns the place as given in the file.
 GltfPlace place_of(const GltfNode& node);
 
 /// Transforms of all nodes in the scene, from those relative to their parents. May not be finite.
@@ -65,7 +65,7 @@ struct GltfJoint {
 struct GltfBindPose {
   std::vector<GltfJoint> joints;  ///< of all skins in use, each once, depth first
   std::vector<Affine> meshes;     ///< of each skin, the transform M of its meshes
-  /// Of each skin, the indices of its joints in `joints`; none for a skin that is not in use.
+  /// Indices of each skin's joints in `joints`; none for a skin that is not in use.
   std::vector<std::vector<int>> places;
 };
 

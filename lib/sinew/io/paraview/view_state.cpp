@@ -21,7 +21,7 @@ constexpr const char* version = "5.10.0";
 const Color ink = {0.16, 0.18, 0.22}, paper = {0.98, 0.98, 0.99}, paper_top = {0.86, 0.89, 0.93};
 const Color skin = {0.55, 0.71, 0.86}, edge = {0.20, 0.33, 0.47}, bone = {0.98, 0.93, 0.80};
 const Color obstacle = {0.62, 0.60, 0.58}, force = {0.86, 0.30, 0.10};
-/// Of the axes x, y, z of a bone.
+/// Colors of the axes x, y, z of a bone.
 const Color axes = {0.88, 0.15, 0.17, 0.13, 0.62, 0.24, 0.13, 0.36, 0.92};
 /// Share of the range, red, green, blue: lightness increases with the value, and the lowest color
 /// still shows the spheres' shading.
@@ -224,7 +224,7 @@ class Show {
     return view;
   }
 
-  /// From the left, the front and above, z up, as near as all corners allow in a square.
+  /// Looks from the left, the front and above, z up, as near as all corners allow in a square.
   void look_at(StateProxy& view) const {
     constexpr double wide = 0.9, tall = 0.8, angle = 30;  // above the color bar
     const Vec3 back = Vec3(-0.46, -0.84, 0.29).normalized();

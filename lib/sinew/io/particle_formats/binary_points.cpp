@@ -63,7 +63,7 @@ std::string bgeo_head(const ParticleCloud& cloud) {
   return head;
 }
 
-/// From x forward and z up to z forward and y up: x y z becomes y z x.
+/// Turns x forward and z up to z forward and y up: x y z becomes y z x.
 Vec3 turned(const Vec3& p) { return {p.y(), p.z(), p.x()}; }
 
 OrderedJson list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -74,8 +74,8 @@ OrderedJson only(OrderedJson item) {
   return list;
 }
 
-/// As the file has it. Volatile, since g++ 12 at -O2 drops two neighboring conversions to float and
-/// back as if they changed nothing.
+/// Rounds as the file does. Volatile, since g++ 12 at -O2 drops two neighboring conversions to
+/// float and back as if they changed nothing.
 double rounded(double value) {
   const volatile float single = static_cast<float>(value);
   return single;

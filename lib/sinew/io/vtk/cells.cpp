@@ -35,7 +35,7 @@ const std::vector<Ids>& hexahedron() {
   return faces;
 }
 
-/// By VTK's documentation of its cell types.
+/// Follows VTK's documentation of its cell types.
 const std::vector<Solid>& solids() {
   static const std::vector<Ids> tetrahedron = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 2, 1}},
                                 wedge = {{0, 1, 2},
@@ -151,7 +151,7 @@ void add_strip(const Checked& cells, std::size_t cell, std::vector<Ids>& polygon
     polygons.push_back(picked(cells, cell, {i, i + 1 + i % 2, i + 2 - i % 2}));
 }
 
-/// Of a cell that is a surface.
+/// Adds a cell that is a surface.
 void add_polygon(const Checked& cells, std::size_t cell, std::vector<Ids>& polygons) {
   const int type = cells.type(cell);
   const auto points = cells[cell];
@@ -173,7 +173,7 @@ struct Face {
   std::size_t face;
 };
 
-/// Those of volume cells that belong to one cell only, in the order of the cells.
+/// Finds faces of volume cells that belong to one cell only, in the order of the cells.
 std::vector<Face> outer_faces(const Checked& cells) {
   std::vector<Face> all;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {

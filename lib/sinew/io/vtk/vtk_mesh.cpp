@@ -23,7 +23,7 @@ constexpr std::uint64_t largest_mesh = std::uint64_t{16} << 30;  // bytes
 
 using PieceElements = std::span<const XmlElement>;
 
-/// Of the only array in a group, or the one of that name; none: nullptr.
+/// Finds the only array in a group, or the one of that name; none: nullptr.
 const XmlElement* array_of(const VtkXmlFile& file, PieceElements piece, const std::string& group,
                            std::string_view name) {
   for (const XmlElement* array : file.arrays_in(piece, group))
@@ -158,7 +158,7 @@ std::uint64_t read_extent(const VtkXmlFile& file, LevelSet& image) {
   return static_cast<std::uint64_t>(all);
 }
 
-/// Of the active scalars, or the first array of one component.
+/// Finds the active scalars, or the first array of one component.
 const XmlElement& scalars_of(const VtkXmlFile& file, PieceElements piece) {
   std::string_view active;
   for (const XmlElement& element : piece)

@@ -97,7 +97,7 @@ bool holds(const Box& outer, const Box& inner) {
   return outer.contains(inner) && outer.sizes() != inner.sizes();
 }
 
-/// By the start of boxes along x; of two with the same start the longer one is first.
+/// Sorts boxes by their start along x; of two with the same start the longer one is first.
 std::vector<int> swept(std::span<const Box> boxes) {
   std::vector<int> order(boxes.size());
   std::iota(order.begin(), order.end(), 0);
@@ -179,7 +179,7 @@ bool inside_out(const Triangles& surface, const Patches& patches) {
   return volume < -volume_rounding(area(surface), box);
 }
 
-/// Of patches that decide, the area of those reversed minus that of the others.
+/// Area of the reversed patches among those that decide, minus that of the others.
 struct Vote {
   bool cast = false;
   double excess = 0;

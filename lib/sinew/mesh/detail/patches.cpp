@@ -35,7 +35,7 @@ std::vector<std::array<Neighbor, 3>> neighbors_of(std::size_t faces,
   return neighbors;
 }
 
-/// From the orientation of each patch's first face to that of most of its area.
+/// Turns each patch from the orientation of its first face to that of most of its area.
 void follow_most(Patches& patches, const Triangles& surface) {
   std::vector<double> excess(patches.count, 0);  // of area oriented against the first face
   for (std::size_t i = 0; i < surface.faces.size(); ++i)

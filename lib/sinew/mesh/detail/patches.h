@@ -19,7 +19,7 @@ struct Patches {
   std::size_t twisted_edges = 0;  ///< whose two faces cannot agree: the patch is cut there
 };
 
-/// By breadth-first search over the faces, so that the cuts are short.
+/// Searches the faces breadth-first, so that the cuts are short.
 Patches patches_of(const Triangles& surface, std::span<const EdgeUse> uses);
 
 /// Calls visit(patch, count) for each patch that traverses the edge of these uses more often in one

@@ -18,7 +18,7 @@ struct SurfaceDistortion {
   double flipped;       ///< faces opposed to the mean normals at their corners
 };
 
-/// Of `now` (points in the order of rest.points, m) against the surface at rest. In parallel.
+/// Compares `now` (points in the order of rest.points, m) with the surface at rest. In parallel.
 SurfaceDistortion surface_distortion(const Triangles& rest, const Points& now);
 
 /// The stretches of a triangle that moved from one to the other corners, larger first; infinite or

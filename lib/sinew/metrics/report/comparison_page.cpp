@@ -198,7 +198,7 @@ void join_bones(Playback& playback, const Playback& second,
   }
 }
 
-/// Those of the second appended; the same name is the same material.
+/// Appends materials of the second; the same name is the same material.
 void join_materials(Playback& playback, const Playback& second) {
   if (playback.material.empty() && second.material.empty()) return;
   std::vector<std::string>& names = playback.material_names;

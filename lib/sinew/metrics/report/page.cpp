@@ -105,7 +105,7 @@ std::optional<Pair> along_a_force(const std::vector<MachineColumn>& columns) {
   return best;
 }
 
-/// Of the same owner, where one has both: the displacement and the force that change most.
+/// Finds the displacement and the force that change most, of the same owner where one has both.
 Pair widest_pair(const std::vector<MachineColumn>& columns) {
   const auto has_force = [&](const std::string& owner) {
     return std::any_of(columns.begin(), columns.end(), [&](const MachineColumn& one) {

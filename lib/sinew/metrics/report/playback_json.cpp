@@ -39,7 +39,7 @@ void quantize(std::vector<std::uint16_t>& out, const std::vector<float>& places,
   }
 }
 
-/// Of each frame; null where they are as in the frame before.
+/// Lists obstacles of each frame; null where they are as in the frame before.
 Json obstacles_of(const Playback& playback, const Cube& cube) {
   Json frames = Json::array();
   const std::vector<float>* before = nullptr;

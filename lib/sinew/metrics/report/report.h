@@ -42,7 +42,7 @@ struct LawCurve {
   std::vector<CurveLine> lines;
 };
 
-/// Of what supports, loads and probes do, one value per frame.
+/// Values of what supports, loads and probes do, one per frame.
 struct MachineColumn {
   std::string name, unit;
   std::vector<double> values;

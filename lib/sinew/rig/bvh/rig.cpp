@@ -66,7 +66,7 @@ class Reading {
 
   Vec3 vector(const Vec3& given) const { return options_.scale * (axes_ * given); }
 
-  /// Of a joint whose channels begin at `column` of the frame.
+  /// Returns the rotation of a joint whose channels begin at `column` of the frame.
   Quat rotation(const BvhJoint& joint, std::size_t column, int frame) const {
     const double* values = bvh_.values.data() + frame * width_ + column;
     Quat rotation = Quat::Identity();

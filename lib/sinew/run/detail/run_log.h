@@ -25,7 +25,7 @@ class RunLog {
   RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed = false);
 
   void describe(const Prepared& prepared);
-  /// That makes the steps in another program.
+  /// Describes the engine that makes the steps in another program.
   void describe(const Engine& engine);
 
   void describe(const EngineSteps& steps);  ///< how evenly its ranks share the particles

@@ -126,7 +126,7 @@ void CellStepper::hold_back(const WorldNow& now, const Pose& pose) {
   }
 }
 
-/// Of the body on itself.
+/// Finds the friction of the body on itself.
 void CellStepper::find_friction() {
   friction_.assign(particles_.size(), Vec3::Zero());
   const Material& material = body_->material;

@@ -76,7 +76,7 @@ class CellStepper final : public Stepper {
   std::vector<std::size_t> held_;   ///< index of the particle of each pin of the world
   std::vector<bool> is_held_;       ///< empty without pins
   std::vector<std::size_t> place_;  ///< of a particle, by id; empty without a world
-  bool kicked_ = false;             ///< velocities are half a step ahead (velocity Verlet)
+  bool kicked_ = false;  ///< velocities are half a step behind positions (velocity Verlet)
 };
 
 }  // namespace sinew

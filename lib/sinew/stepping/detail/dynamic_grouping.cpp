@@ -21,7 +21,7 @@ std::size_t count_grouped(const std::vector<std::int32_t>& group) {
       std::count_if(group.begin(), group.end(), [](std::int32_t one) { return one >= 0; }));
 }
 
-/// Of so many particles, in groups.
+/// Returns the fewest, of so many particles, that are worth grouping.
 std::size_t worthwhile(std::size_t count) {
   return static_cast<std::size_t>(std::ceil(min_gain * static_cast<double>(count)));
 }

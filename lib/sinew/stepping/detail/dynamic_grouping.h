@@ -20,7 +20,7 @@ namespace sinew {
 
 class DynamicGrouping {
  public:
-  /// Of a body without groups.
+  /// Takes a body without groups.
   DynamicGrouping(std::shared_ptr<const Body> body, const Motion& motion, double mass,
                   const DynamicOptions& options);
 

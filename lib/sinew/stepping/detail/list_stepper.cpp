@@ -16,8 +16,8 @@ namespace {
 
 // Columns of sorted particles, in diameters; how much lists may grow before sorting is tried again.
 constexpr double column_edge = 1.2, max_growth = 1.3;
-// By the step count alone, so that a resumed run sorts when an uninterrupted one does: the last
-// bits of sums depend on the order. The lists built for the check cost about one step in a hundred.
+// Checks go by the step count alone, so that a resumed run sorts when an uninterrupted one does:
+// the last bits of sums depend on the order. Their lists cost about one step in a hundred.
 constexpr std::int64_t steps_between_order_checks = 1024;
 
 kernel::PairLaw pair_law_of(const Material& material) {

@@ -105,7 +105,7 @@ class ListStepper final : public Stepper {
   std::vector<Real> share_;            ///< padded; empty unless damping acts pair by pair
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;
-  bool kicked_ = false;  ///< velocities are half a step ahead (velocity Verlet)
+  bool kicked_ = false;  ///< velocities are half a step behind positions (velocity Verlet)
 
   VerletLists<Real> lists_;
   /// Differences per block in the outer list; initially those of a packed body.

@@ -199,7 +199,7 @@ bool Surroundings<Real>::has_contacts(std::size_t block) const {
   return first[0] != first[1];
 }
 
-/// Of what its block's list has within 2r.
+/// Sums the friction of what its block's list has within 2r.
 template <class Real>
 Vec3 Surroundings<Real>::friction_on(std::size_t k, const Vec3& position, const Vec3& velocity) {
   constexpr std::size_t block = BlockState<Real>::block;

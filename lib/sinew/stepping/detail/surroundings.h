@@ -70,7 +70,7 @@ class Surroundings {
     loads_.restore(state);
   }
 
-  /// Of the last step or probe, added in the order of the pieces.
+  /// Sums up the last step or probe, in the order of the pieces.
   WorldSums sums() const;
   /// The lengths of the forces of loads at present, N.
   double loaded() const { return loads_.sizes(); }
@@ -125,7 +125,7 @@ class Surroundings {
   std::vector<Piece> pieces_;
   SlidingContacts sliding_;
 
-  // Of the moment:
+  // Values of the moment:
   WorldNow now_;
   BlockState<Real>* state_ = nullptr;
   const Pose* pose_ = nullptr;

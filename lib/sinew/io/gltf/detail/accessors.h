@@ -15,10 +15,10 @@ namespace sinew {
 /// have been checked.
 class GltfElements {
  public:
-  /// From byte `offset` of the view, `parts` numbers each.
+  /// Reads from byte `offset` of the view, `parts` numbers each.
   GltfElements(const CheckedGltf& gltf, int view, std::int64_t offset, GltfNumber number,
                int parts = 1);
-  /// Of an accessor with data; sparse elements are ignored.
+  /// Reads an accessor with data; sparse elements are ignored.
   GltfElements(const CheckedGltf& gltf, const GltfAccessor& accessor);
 
   std::int64_t index(std::int64_t i) const;  ///< element i, of one unsigned whole number

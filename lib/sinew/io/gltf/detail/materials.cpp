@@ -71,7 +71,7 @@ void take_images(OrderedJson& json, const std::filesystem::path& folder, const C
   }
 }
 
-/// Of extensions those that say how surfaces look.
+/// Picks the extensions that say how surfaces look.
 OrderedJson extensions_of_looks(const OrderedJson& used) {
   OrderedJson kept = OrderedJson::array();
   for (const OrderedJson& name : used) {

@@ -14,9 +14,9 @@
 
 namespace sinew {
 
-/// As in the file, with the bytes of images from its buffers, from data URIs and from files in its
-/// folder or below; other images keep their URIs. Throws bad input, with the path, where the file
-/// cannot be read.
+/// Returns materials as in the file, with the bytes of images from its buffers, from data URIs and
+/// from files in its folder or below; other images keep their URIs. Throws bad input, with the
+/// path, where the file cannot be read.
 GltfMaterials gltf_materials(const std::filesystem::path& path, const CheckedGltf& gltf);
 
 /// The type of an image that glTF allows, as "image/png", by its first bytes; null for others.

@@ -120,7 +120,7 @@ MovedNormals::MovedNormals(const SplitSurface& surface, const std::vector<float>
                            Points given)
     : surface_(surface), given_(std::move(given)), at_rest_(means(at_rest)) {}
 
-/// Of the faces around each normal, by their areas; zero where they have none.
+/// Averages the faces around each normal, by their areas; zero where they have none.
 Points MovedNormals::means(const std::vector<float>& places) const {
   Points means(surface_.normals.size(), Vec3::Zero());
   for (const SplitSurface::Patch& patch : surface_.patches)

@@ -26,9 +26,9 @@ struct VtkCells {
 // VTK's numbers of cells that polygons of a vtkPolyData have.
 inline constexpr int vtk_strip = 6, vtk_polygon = 7;
 
-/// Of grids with volume cells the outer faces: those of one cell only. Of others the cells that are
-/// surfaces. The nodes at the middle of sides of quadratic cells become corners. Throws bad input
-/// for cells of other kinds, damaged ones, and where there is neither.
+/// Finds the outer faces of grids with volume cells: those of one cell only. For others, the cells
+/// that are surfaces. The nodes at the middle of sides of quadratic cells become corners. Throws
+/// bad input for cells of other kinds, damaged ones, and where there is neither.
 std::vector<std::vector<int>> surface_of(const VtkCells& cells, std::size_t points);
 
 // Images.
@@ -51,7 +51,7 @@ PolygonSoup zero_level(const LevelSet& image);
 
 // Legacy files (.vtk), as text or binary, of versions up to 5.
 
-/// As read_vtk_mesh() has it. Counts are checked against the file's length before anything is
+/// Reads what read_vtk_mesh() does. Counts are checked against the file's length before anything is
 /// allocated. Throws bad input.
 PolygonSoup legacy_surface(std::string_view text);
 
