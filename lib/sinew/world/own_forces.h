@@ -24,8 +24,8 @@ class OwnForces {
   /// The world (null: an empty one) in which these forces act.
   std::shared_ptr<const World> added_to(const std::shared_ptr<const World>& world) const;
 
-  /// From now on these forces act (n x 3, N, by id). Not while a step is made. Throws bad input for
-  /// another number of them, and for numbers that are not finite.
+  /// Sets the forces from now on (n x 3, N, by id), between steps. Throws bad input for another
+  /// number of them, and for numbers that are not finite.
   void set(Points forces);
 
  private:

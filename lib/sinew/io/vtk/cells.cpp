@@ -133,7 +133,7 @@ class Checked {
   const VtkCells& cells_;
 };
 
-/// The points at those places of a cell; none where it has fewer.
+/// Returns the points at those places of a cell. Throws bad input where it has fewer.
 Ids picked(const Checked& cells, std::size_t cell, std::initializer_list<int> places) {
   const auto points = cells[cell];
   Ids ids;
