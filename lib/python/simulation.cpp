@@ -247,7 +247,7 @@ void bind_simulation(py::module_& module) {
           [](S& self, const std::string& name) {
             auto [values, components] = self.measured(name);
             const auto rows = static_cast<py::ssize_t>(values.size()) / components;
-            const py::array flat = owned(std::move(values));
+            py::array flat = owned(std::move(values));
             return components == 1 ? flat : flat.reshape({rows, py::ssize_t{components}});
           },
           py::arg("name"))

@@ -29,6 +29,7 @@
 #include <sinew/run/export_run.h>
 #include <sinew/run/frame_writer.h>
 #include <sinew/run/measure_run.h>
+#include <sinew/run/particle_meter.h>
 #include <sinew/run/simulate.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/prepare.h>
@@ -41,4 +42,5 @@
 #if __has_include(<sinew/render/figure.h>)  // without VTK there is none
 #include <sinew/render/figure.h>
 #endif
+#include <sinew/world/own_forces.h>
 #include <sinew/world/world.h>

@@ -205,6 +205,48 @@ class Made(unittest.TestCase):
             with self.assertRaises(sinew.Error):
                 other.set_forces(bad)
 
+    def test_bones_reactions_and_arrays_while_stepping(self):
+        scene = sinew.read_scene(SOURCE / "configs/box_bend.yaml", {"body.radius": 0.04})
+        simulation = sinew.Simulation(scene)
+        at_rest = simulation.bone_frames
+        self.assertEqual(at_rest.shape, (len(simulation.bones), 4, 4))
+        simulation.run_until(0.5)
+        for frame in simulation.bone_frames:
+            numpy.testing.assert_allclose(frame[:3, :3] @ frame[:3, :3].T, numpy.eye(3), atol=1e-12)
+            numpy.testing.assert_array_equal(frame[3], [0, 0, 0, 1])
+        self.assertGreater(abs(simulation.bone_frames - at_rest).max(), 0.1)
+        self.assertEqual(simulation.reactions.shape, (len(simulation.bones), 6))
+        strain, stress = simulation.array("strain"), simulation.array("stress")
+        self.assertEqual((strain.shape, stress.shape), ((len(simulation.positions), 6),) * 2)
+        self.assertGreater(numpy.nanmax(abs(strain)), 1e-3)
+        self.assertEqual(simulation.array("J").shape, (len(simulation.positions),))
+        for wrong in ("strian", "strain, stress", ""):
+            with self.assertRaises(sinew.Error):
+                simulation.array(wrong)
+        with self.assertRaises(sinew.Error) as raised:
+            sinew.Simulation(self.scene, self.body).array("strain")
+        self.assertIn("surface", str(raised.exception))
+
+    def test_reactions_answer_gravity(self):
+        """At rest, what the bones carry is the weight."""
+        scene = sinew.make_scene(BAR | {"solver": {"gravity": [0, 0, -2]}, "material": {"damping_ratio": 1}}, self.body)
+        simulation = sinew.Simulation(scene, self.body)
+        simulation.run_until(3)
+        weight = 2 * self.body.mass * len(self.body)
+        numpy.testing.assert_allclose(simulation.reactions[:, :3].sum(0), [0, 0, -weight], atol=0.01 * weight)
+
+    def test_a_saved_moment_goes_on_with_the_same_bits(self):
+        simulation = sinew.Simulation(self.scene, self.body, own_forces=True)
+        simulation.set_forces(numpy.full((len(self.body), 3), (0, 0, -2)) * self.body.mass)
+        simulation.step(40)
+        state, positions = simulation.save(), []
+        for _ in range(2):
+            simulation.step(30)
+            positions.append(simulation.positions.copy())
+            simulation.restore(state)
+            self.assertEqual(simulation.steps, 40)
+        numpy.testing.assert_array_equal(*positions)
+
     def test_positions_are_a_view(self):
         simulation = sinew.Simulation(self.scene, self.body)
         first = simulation.positions

@@ -35,6 +35,9 @@ class Scene:
     @property
     def interval(self) -> float: ...
 
+class State:
+    """A moment of a simulation, in memory."""
+
 class Simulation:
     """A scene, filled and bound, or with the particles of a Body."""
 
@@ -50,6 +53,18 @@ class Simulation:
         of the parent bone. From the first call on, the scene's motion ends: bones that are not named, in this call or
         before, stay as they are."""
     def energies(self) -> dict[str, float]: ...
+    def array(self, name: str) -> NDArray[np.float64]:
+        """An array of the particles at this moment, as output.arrays names it: "stress" (n, 6), Pa, "strain", ... The
+        body needs a surface."""
+    def save(self) -> State:
+        """The present moment, from which restore() goes on with the same bits."""
+    def restore(self, state: State) -> None: ...
+    @property
+    def bone_frames(self) -> NDArray[np.float64]:
+        """Homogeneous matrices (bones, 4, 4): the axes of each bone, of which the first points along it, and its head, m."""
+    @property
+    def reactions(self) -> NDArray[np.float64]:
+        """Force, N, and moment about its head, N m, of the body on each bone: (bones, 6)."""
     @property
     def time(self) -> float: ...
     @property
