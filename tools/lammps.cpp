@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
       throw bad_input("sinew-lammps needs the folder of a prepared run",
                       "start it by sinew simulate SCENE --engine lammps --ranks N");
     if (Ranks::first()) print_out(std::string(engine_begins) + '\n');
-    return step_on_lammps({argv[1]}, {take_interruption, [](const EngineNews& news) {
+    return step_on_lammps({argv[1]}, {take_interruption, [](const EngineStatus& news) {
                                         print_out(text_of(news) + '\n');
                                       }});
   });

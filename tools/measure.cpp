@@ -100,7 +100,7 @@ void print_results(const Measured& measured, const RunFiles& run, const Common& 
 }
 
 /// Reports limits that were exceeded one by one.
-Exit told(const std::vector<Check>& checks) {
+Exit exit_after(const std::vector<Check>& checks) {
   Exit exit = Exit::done;
   for (const Check& check : checks) {
     if (check.pass) continue;
@@ -150,7 +150,7 @@ Exit measure_folder(const Options& options, const Common& common) {
           measured.frames, measured.summary, run.body.particles.radius, run.body.particles.size());
       !reasons.empty())
     say(common, "warning: this run is not to be trusted: at its worst, " + reasons);
-  const Exit exit = told(measured.checks);
+  const Exit exit = exit_after(measured.checks);
   const MovieLink movie = options.movie_follows ? MovieLink::follows : MovieLink::if_there;
   write_file(run.folder.path / "report.html",
              report_html(report_input(run, std::move(measured), movie)));
@@ -183,7 +183,7 @@ Exit compare_folders(const Options& options, const Common& common) {
   const RunComparison comparison = compare_runs(options.folders[0], options.folders[1],
                                                 how_to_measure(options, common), options.out);
   print_comparison(comparison, common);
-  return told(comparison.checks);
+  return exit_after(comparison.checks);
 }
 
 bool names_elements(const std::string& reference) {
@@ -224,7 +224,7 @@ Exit compare_with_elements(const Options& options, const Common& common) {
   how.progress = [&](std::size_t done, std::size_t of) { progress.at(done, of); };
   const ElementComparison compared = compare_elements(run, options.reference, how, out);
   print_elements(compared, out, common);
-  return told(compared.metrics.checks);
+  return exit_after(compared.metrics.checks);
 }
 
 Exit study_folders(const Options& options, const Common& common) {

@@ -39,7 +39,7 @@ TEST(LocalDensity, WeighsOnWhatHoldsIt) {
   machine.settings.solver.gravity = {0.3, 0, -1};
   Simulation simulation = machine.at_rest();
   const Vec3 weight = mass_of_all(simulation.body()) * machine.settings.solver.gravity;
-  EXPECT_LT((sum_of(simulation.of_supports()) + weight).norm(), 1e-6 * weight.norm());
+  EXPECT_LT((sum_of(simulation.support_reactions()) + weight).norm(), 1e-6 * weight.norm());
 }
 
 /// Both steppers and precisions keep momentum and energy.

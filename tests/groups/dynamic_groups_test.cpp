@@ -35,7 +35,7 @@ Bar swinging(MaterialModel model, Precision precision = Precision::binary64, dou
 
 Simulation begin(const Bar& bar, const DynamicOptions& by = options) {
   Simulation simulation = bar.begin();
-  simulation.group_as_it_moves(by);
+  simulation.enable_dynamic_groups(by);
   return simulation;
 }
 
@@ -210,7 +210,7 @@ TEST(DynamicGroups, RefuseWhatTheyCannotBeCombinedWith) {
   bar.settings.solver.neighbor_search = NeighborSearch::cells;
   bar.body.grouping.reset();
   Simulation cells = bar.begin();
-  test::expect_bad_input([&] { cells.group_as_it_moves(options); }, {"cells have no groups"});
+  test::expect_bad_input([&] { cells.enable_dynamic_groups(options); }, {"cells have no groups"});
 }
 
 TEST(DynamicGroups, RefuseAnotherMotion) {

@@ -72,7 +72,7 @@ TEST(KeptFree, ByDynamicGroupsToo) {
   DynamicOptions options{{.joint_distance = 0.7, .min_particles = 256}, 0.03};
   options.sizes.kept_free = kept_free(bar.body, {.surface_distance = 4 * r});
   Simulation simulation = bar.begin();
-  simulation.group_as_it_moves(options);
+  simulation.enable_dynamic_groups(options);
   while (simulation.time() < 0.1) simulation.step();
   const Grouping& grouping = *simulation.body().grouping;
   EXPECT_GT(grouping.grouped(), 0U);

@@ -34,7 +34,7 @@ Checkpoint sample(bool single = false) {
   state.world_ledger = {0.4, 0, -0.5, true};
   state.held_at_start = 0.6;
   state.kicked = true;
-  state.whole_numbers = {1e-9, {1, 2, 3}, Box(Vec3(-1, -2, -3), Vec3(1, 2, 3)), 0.7};
+  state.fixed_point_units = {1e-9, {1, 2, 3}, Box(Vec3(-1, -2, -3), Vec3(1, 2, 3)), 0.7};
   state.mean_when_sorted = 44.5;
   state.order = {4, 3, 2, 1, 0};
   if (single)

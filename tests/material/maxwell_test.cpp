@@ -36,7 +36,7 @@ Machine gripped(const std::function<double(double)>& displacement) {
   return machine;
 }
 
-double pull_of(Simulation& simulation) { return simulation.of_supports()[1].force.z(); }
+double pull_of(Simulation& simulation) { return simulation.support_reactions()[1].force.z(); }
 
 /// Its stiffness against a pull while nothing has relaxed, N/m.
 double stiffness_at_once() {

@@ -53,7 +53,8 @@ TEST(Relaxation, ReactionsBalanceLoadsAndWeight) {
   for (const MaterialModel model : {paper, bonded, bonded_volume}) {
     const Machine machine = cantilever(model);
     Simulation simulation = machine.at_rest();
-    const Vec3 held = sum_of(simulation.of_supports()), loads = sum_of(simulation.of_loads());
+    const Vec3 held = sum_of(simulation.support_reactions()),
+               loads = sum_of(simulation.load_reactions());
     const double largest = std::max({held.norm(), loads.norm(), machine.weight().norm()});
     EXPECT_LT((held + loads + machine.weight()).norm(), 1e-6 * largest);
     EXPECT_LE(simulation.relaxation()->last().residual, 1e-6);
@@ -66,7 +67,7 @@ TEST(Relaxation, ReactionsOfGripsBalance) {
     const Machine machine = gripped(model);
     Simulation simulation = machine.at_rest(two_moments());
     EXPECT_EQ(simulation.time(), 1);
-    const std::vector<Reaction> grips = simulation.of_supports();
+    const std::vector<Reaction> grips = simulation.support_reactions();
     EXPECT_LT(sum_of(grips).norm(), 1e-6 * grips[0].force.norm());
     const Vec3 moment = moment_of(grips, {Vec3::Zero(), {0, 0, machine.rest.back().z() + 0.002}});
     EXPECT_LT(moment.norm(), 1e-6 * grips[0].moment.norm());
@@ -86,7 +87,7 @@ TEST(Relaxation, ARollerHasNoForceAlongItsFreeAxes) {
   Machine machine = cantilever();
   machine.world.supports.push_back({"roller", machine.top(), {false, true, false}});
   Simulation simulation = machine.at_rest();
-  const Reaction roller = simulation.of_supports()[1];
+  const Reaction roller = simulation.support_reactions()[1];
   EXPECT_EQ(roller.force.x(), 0);
   EXPECT_EQ(roller.force.z(), 0);
   EXPECT_GT(std::abs(roller.force.y()), 1e-3);
@@ -236,7 +237,8 @@ TEST(Relaxation, FlowEndsAtTheYieldStress) {
   Simulation flowing = machine.at_rest(steps);
   machine.settings.material.yield_strain.reset();
   Simulation elastic = machine.at_rest(steps);
-  EXPECT_LT(flowing.of_supports()[1].force.z(), 0.5 * elastic.of_supports()[1].force.z());
+  EXPECT_LT(flowing.support_reactions()[1].force.z(),
+            0.5 * elastic.support_reactions()[1].force.z());
 }
 
 }  // namespace sinew::equilibrium_test

@@ -149,8 +149,8 @@ void expect_same(Simulation& kernel, Simulation& reference, double part) {
   expect_same_ledger(kernel.energies(), reference.energies(), part);
   expect_same(kernel.reactions_of_obstacles(), reference.reactions_of_obstacles(),
               100 * part * force);
-  expect_same(kernel.of_supports(), reference.of_supports(), 100 * part * force);
-  expect_same(kernel.of_loads(), reference.of_loads(), 100 * part * force);
+  expect_same(kernel.support_reactions(), reference.support_reactions(), 100 * part * force);
+  expect_same(kernel.load_reactions(), reference.load_reactions(), 100 * part * force);
 }
 
 void expect_same_steps(const Settings& settings, const Around& around) {

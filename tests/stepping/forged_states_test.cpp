@@ -36,9 +36,9 @@ TEST(ForgedStates, HaveTheUnitsOfTheBody) {
   for (const Precision precision : test::precisions) {
     for (const double length : {0.0, 1e-242, 1e200, std::nan("")})
       expect_refused(
-          precision, [&](auto& state) { state.whole_numbers.length = length; }, "units");
+          precision, [&](auto& state) { state.fixed_point_units.length = length; }, "units");
     expect_refused(
-        precision, [](auto& state) { state.whole_numbers.box.max().x() = 1e50; }, "units");
+        precision, [](auto& state) { state.fixed_point_units.box.max().x() = 1e50; }, "units");
     begin(precision).restore(begin(precision).save());
   }
 }

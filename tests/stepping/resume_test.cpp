@@ -217,8 +217,8 @@ Results results_of(Simulation& simulation) {
     for (const auto* part : {&forces.pair, &forces.damping, &forces.bone})
       results.forces.push_back((*part)[i]);
   results.forces.insert(results.forces.end(), forces.world.begin(), forces.world.end());
-  for (const auto& all :
-       {simulation.reactions_of_obstacles(), simulation.of_supports(), simulation.of_loads()})
+  for (const auto& all : {simulation.reactions_of_obstacles(), simulation.support_reactions(),
+                          simulation.load_reactions()})
     for (const Reaction& on : all) {
       results.forces.push_back(on.force);
       results.forces.push_back(on.moment);
@@ -300,9 +300,9 @@ TEST(Resume, GoesThroughSortsUnitsAndBrokenBonds) {
     EXPECT_NE(simulation.save().order, before);
   }
   Simulation far = flight("Flight").begin();
-  const Vec3 origin = far.save().whole_numbers.origin;
+  const Vec3 origin = far.save().fixed_point_units.origin;
   while (far.steps() < last) far.step();
-  EXPECT_NE(far.save().whole_numbers.origin, origin);
+  EXPECT_NE(far.save().fixed_point_units.origin, origin);
   Simulation torn = tearing("Torn", MaterialModel::bonded).begin();
   while (torn.steps() < last) torn.step();
   Simulation pressed = surrounded("Pressed", Integrator::symplectic_euler).begin();
@@ -361,7 +361,7 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   bad.world_ledger.work = NAN;
   refuse(bend("", binary64), bad, "energies");
   bad = bend("", binary32).begin().save();
-  bad.whole_numbers.length = 0;
+  bad.fixed_point_units.length = 0;
   refuse(bend("", binary32), bad, "units");
   const World tears = tearing("", MaterialModel::bonded);
   const SimulationState torn = tears.begin().save();

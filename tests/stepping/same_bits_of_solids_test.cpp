@@ -64,8 +64,8 @@ Results run(const Story& story, kernel::InstructionSet set, int steps) {
                   {},
                   simulation.list_counts().listed,
                   simulation.list_counts().pruned};
-  for (const auto& all :
-       {simulation.reactions_of_obstacles(), simulation.of_supports(), simulation.of_loads()})
+  for (const auto& all : {simulation.reactions_of_obstacles(), simulation.support_reactions(),
+                          simulation.load_reactions()})
     for (const Reaction& on : all)
       for (const double value : {on.force.x(), on.force.y(), on.force.z(), on.moment.x(), on.power})
         results.reactions.push_back(value);

@@ -81,7 +81,7 @@ TEST(OwnStepper, IsDrivenSavedAndRestored) {
   EXPECT_NEAR(fallen(), 10 * 1e-6 * 150 * 151 / 2, 1e-12);
   EXPECT_EQ(simulation.steps(), 150);
   test::expect_bad_input([&] { simulation.relax({}); }, {"relax nothing"});
-  test::expect_bad_input([&] { simulation.group_as_it_moves({}); }, {"no groups"});
+  test::expect_bad_input([&] { simulation.enable_dynamic_groups({}); }, {"no groups"});
 }
 
 Settings bending(MaterialModel model = MaterialModel::bonded) {

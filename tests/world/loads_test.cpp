@@ -272,7 +272,7 @@ TEST(Loads, OfPressuresAreThoseOfTheMomentInEquilibrium) {
   Vec3 moment = Vec3::Zero();
   for (std::size_t k = 0; k < load.particles.size(); ++k)
     moment += (now[load.particles[k]] - load.pivot).cross(exact.force(k));
-  const Reaction held = simulation.of_loads()[0];
+  const Reaction held = simulation.load_reactions()[0];
   EXPECT_LT((held.force - force_of(load, exact)).norm(), 1e-6 * exact.size());
   EXPECT_LT((held.moment - moment).norm(), 1e-6 * exact.size() * r);
 }
@@ -302,7 +302,7 @@ TEST(Loads, PowerIsForceTimesVelocity) {
   machine.world.loads = {machine.pull(machine.top(), {0, 0, 0.5})};
   Simulation simulation = machine.begin();
   while (simulation.time() < 0.05) simulation.step();
-  const Reaction on = simulation.of_loads()[0];
+  const Reaction on = simulation.load_reactions()[0];
   Vec3 velocity = Vec3::Zero();
   for (const std::uint32_t i : machine.top())
     velocity += simulation.particles().velocity(i) / static_cast<double>(machine.top().size());

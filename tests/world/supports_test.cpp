@@ -74,7 +74,7 @@ TEST(Supports, OfAnyDirectionLetSlideAcross) {
         slid = std::max(slid, moved.norm());
       }
       EXPECT_GT(slid, 1e-3 * r);
-      const Vec3 force = simulation.of_supports()[0].force;
+      const Vec3 force = simulation.support_reactions()[0].force;
       EXPECT_GT(force.norm(), 0);
       EXPECT_LT(force.cross(along).norm(), 1e-12 * force.norm());
     }
@@ -83,7 +83,7 @@ TEST(Supports, OfAnyDirectionLetSlideAcross) {
 TEST(Supports, OfAnyDirectionBalance) {
   const Machine machine = on_slope(Vec3(1, 0, 1).normalized());
   Simulation simulation = machine.at_rest({1, 1, 1e-7});
-  EXPECT_LT((sum_of(simulation.of_supports()) + machine.weight()).norm(),
+  EXPECT_LT((sum_of(simulation.support_reactions()) + machine.weight()).norm(),
             1e-6 * machine.weight().norm());
 }
 
@@ -102,7 +102,8 @@ TEST(Supports, ReactionsBalanceLoadsAndWeightAtRest) {
     machine.world.drag.rate = 15;
     machine.world.loads = {machine.pull(machine.top(), {0.02, 0.01, 0.05})};
     Simulation simulation = machine.after(6);
-    const Vec3 held = sum_of(simulation.of_supports()), loads = sum_of(simulation.of_loads());
+    const Vec3 held = sum_of(simulation.support_reactions()),
+               loads = sum_of(simulation.load_reactions());
     const double most = held.norm();
     EXPECT_LT((loads - Vec3(0.02, 0.01, 0.05)).norm(), 1e-12);
     EXPECT_LT((held + loads + machine.weight()).norm(),
@@ -117,8 +118,8 @@ TEST(Supports, MomentsBalanceAtRestToo) {
   machine.world.drag.rate = 15;
   machine.world.loads = {machine.pull(machine.top(), {0.02, 0.01, 0.05})};
   Simulation simulation = machine.after(6);
-  const Vec3 held = moment_of(simulation.of_supports(), {machine.world.supports[0].pivot});
-  const Vec3 load = moment_of(simulation.of_loads(), {machine.world.loads[0].pivot});
+  const Vec3 held = moment_of(simulation.support_reactions(), {machine.world.supports[0].pivot});
+  const Vec3 load = moment_of(simulation.load_reactions(), {machine.world.loads[0].pivot});
   EXPECT_GT(load.norm(), 1e-4);
   EXPECT_LT((held + load).norm(), 1e-6 * load.norm());
 }
@@ -127,7 +128,7 @@ TEST(Supports, ARollerHasNoReactionAlongItsFreeDirections) {
   Machine machine = gripped({0.1, 0.2, 0.05}, Vec3::Zero(), along_z);
   machine.settings.solver.gravity = {1, 2, 3};
   Simulation simulation = machine.after(0.05);
-  const Reaction on = simulation.of_supports()[1];
+  const Reaction on = simulation.support_reactions()[1];
   EXPECT_EQ(on.force.x(), 0);
   EXPECT_EQ(on.force.y(), 0);
   EXPECT_GT(std::abs(on.force.z()), 1e-4);
@@ -169,8 +170,8 @@ TEST(Supports, MomentumIsWhatLoadsAndReactionsGive) {
     return sum;
   };
   for (int step = 0; step < 200; ++step) {
-    const Vec3 before = momentum(), given = sum_of(simulation.of_supports()) +
-                                            sum_of(simulation.of_loads()) + machine.weight();
+    const Vec3 before = momentum(), given = sum_of(simulation.support_reactions()) +
+                                            sum_of(simulation.load_reactions()) + machine.weight();
     const double dt = simulation.time();
     simulation.step();
     const Vec3 gained = momentum() - before;
@@ -199,8 +200,8 @@ TEST(Supports, OneOfTwoThatHoldTheSameAnswersForIt) {
   two.world.supports = {{"clamp", two.bottom()}, {"again", two.bottom()}};
   for (Machine* machine : {&one, &two}) machine->settings.solver.gravity = {0, 0, -1};
   Simulation a = one.after(0.05), b = two.after(0.05);
-  EXPECT_EQ(a.of_supports()[0].force, b.of_supports()[0].force);
-  EXPECT_EQ(b.of_supports()[1].force, Vec3(0, 0, 0));
+  EXPECT_EQ(a.support_reactions()[0].force, b.support_reactions()[0].force);
+  EXPECT_EQ(b.support_reactions()[1].force, Vec3(0, 0, 0));
 }
 
 TEST(Supports, ContradictionsAreRefused) {

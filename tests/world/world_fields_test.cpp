@@ -14,7 +14,7 @@ namespace sinew::world_fields_test {
 
 using namespace test;
 
-constexpr Grain grain = {0.005, 6e-6};
+constexpr ParticleInfo grain = {0.005, 6e-6};
 
 TEST(KeyedValues, AreStraightBetweenKeysAndHeldOutside) {
   const KeyedValue keys = {{1, 2, 4}, {0, 3, -1}};

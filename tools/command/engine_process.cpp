@@ -148,7 +148,7 @@ class EngineProcess {
     output_ = pipe[0];
   }
 
-  EngineNews next(const std::function<Interruption()>& wanted) {
+  EngineStatus next(const std::function<Interruption()>& wanted) {
     Interruption asked = Interruption::none;
     while (true) {
       if (const auto line = take_line()) {

@@ -48,8 +48,8 @@ void StageProgress::at(std::size_t done, std::size_t of) {
                   done < of ? "  " + duration_text(left) + " left" : std::string());
   if (line_.style() == ProgressStyle::rewritten)
     line_.rewrite(line, done == of);
-  else if (now - told_ >= between)
-    line_.add(line), told_ = now;
+  else if (now - reported_ >= between)
+    line_.add(line), reported_ = now;
 }
 
 Progress::Progress(int frames, ProgressStyle style, std::FILE* out)
@@ -83,8 +83,8 @@ void Progress::iterations(int frame, double time, std::int64_t iterations, doubl
   const auto now = Clock::now();
   if (line_.style() == ProgressStyle::rewritten)
     line_.rewrite(line, false);
-  else if (line_.style() == ProgressStyle::lines && now - told_ >= between)
-    line_.add(line), told_ = now;
+  else if (line_.style() == ProgressStyle::lines && now - reported_ >= between)
+    line_.add(line), reported_ = now;
 }
 
 }  // namespace sinew

@@ -39,7 +39,7 @@ class StageProgress {
 
   std::string stage_;
   ProgressLine line_;
-  Clock::time_point start_ = Clock::now(), told_ = start_;
+  Clock::time_point start_ = Clock::now(), reported_ = start_;
 };
 
 class Progress {
@@ -62,7 +62,7 @@ class Progress {
   int first_frame_ = 0;
   std::int64_t first_steps_ = 0;
   int tenths_ = 0;
-  Clock::time_point told_ = Clock::now();
+  Clock::time_point reported_ = Clock::now();
 };
 
 }  // namespace sinew

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -44,6 +45,16 @@ struct LedgerEntries {
   bool begun = false;  ///< whether there was a step
 };
 
+/// Calls archive(name, member) for each member, to write or to read it.
+template <class Archive, class Ledger>
+requires std::is_same_v<std::remove_const_t<Ledger>, LedgerEntries>
+void serialize(Archive& archive, Ledger& ledger) {
+  archive("work", ledger.work);
+  archive("lost", ledger.dissipation);
+  archive("power", ledger.power);
+  archive("begun", ledger.begun);
+}
+
 /// Positions and velocities in a stepper's units.
 template <class Coord, class Real>
 struct MovingColumns {
@@ -54,7 +65,7 @@ using MovingInDouble = MovingColumns<double, double>;       ///< m, m/s
 using MovingInSingle = MovingColumns<std::int32_t, float>;  ///< lengths and lengths per step
 
 /// The fixed-point units of single precision, and the range in which they are valid.
-struct WholeNumbers {
+struct FixedPointUnits {
   double length = 1;           ///< m
   Vec3 origin = Vec3::Zero();  ///< m
   Box box;                     ///< around all particles when the units were last checked, m
@@ -96,10 +107,10 @@ struct SimulationState {
   double held_at_start = 0;    ///< kinetic energy of what pins hold, J
   bool kicked = false;         ///< velocities are half a step behind positions (velocity Verlet)
   std::variant<MovingInDouble, MovingInSingle> moving;
-  std::vector<std::uint32_t> order;  ///< each particle's place in the caller's order
-  WholeNumbers whole_numbers;        ///< of single precision
-  double mean_when_sorted = 0;       ///< length of lists above which sorting is tried again
-  std::vector<double> rest_length;   ///< of the reference's bonds, m; 0 once broken
+  std::vector<std::uint32_t> order;   ///< each particle's place in the caller's order
+  FixedPointUnits fixed_point_units;  ///< of single precision
+  double mean_when_sorted = 0;        ///< length of lists above which sorting is tried again
+  std::vector<double> rest_length;    ///< of the reference's bonds, m; 0 once broken
   // Lists, where bonds change:
   std::vector<std::uint32_t> bonded_lanes;  ///< by entry of the bond lists
   std::vector<double> creep;                ///< of each whole bond, in lengths of the kernel

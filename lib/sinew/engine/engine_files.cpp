@@ -9,7 +9,7 @@
 #include <sinew/body/volume_weights.h>
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
-#include <sinew/engine/detail/walks.h>
+#include <sinew/engine/detail/serialize.h>
 #include <sinew/engine/engine_world.h>
 #include <sinew/material/laws.h>
 

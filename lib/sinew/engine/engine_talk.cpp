@@ -10,12 +10,12 @@ constexpr std::string_view state = "sinew-engine: state ", unstable = "sinew-eng
 
 }  // namespace
 
-std::string text_of(const EngineNews& news) {
+std::string text_of(const EngineStatus& news) {
   return std::string(news.unstable ? unstable : state) + std::to_string(news.steps);
 }
 
-std::optional<EngineNews> news_of(std::string_view line) {
-  EngineNews news;
+std::optional<EngineStatus> news_of(std::string_view line) {
+  EngineStatus news;
   news.unstable = line.starts_with(unstable);
   if (!news.unstable && !line.starts_with(state)) return std::nullopt;
   line.remove_prefix(news.unstable ? unstable.size() : state.size());

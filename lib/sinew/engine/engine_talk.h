@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What an engine in another program says while it steps, a line each, and what it is asked for.
 //
-//     print(text_of(EngineNews{1200, false}));  // "sinew-engine: state 1200"
+//     print(text_of(EngineStatus{1200, false}));  // "sinew-engine: state 1200"
 //     if (const auto news = news_of(line)) read_engine_state(folder, news->steps, like, ids);
 #pragma once
 
@@ -21,7 +21,7 @@ enum class Interruption {
 };
 
 /// A state is complete.
-struct EngineNews {
+struct EngineStatus {
   std::int64_t steps = 0;
   bool unstable = false;  ///< the step after it failed: it is the last
 };
@@ -29,8 +29,8 @@ struct EngineNews {
 /// Said once all ranks listen to signals.
 inline constexpr std::string_view engine_begins = "sinew-engine: begins";
 
-std::string text_of(const EngineNews& news);
+std::string text_of(const EngineStatus& news);
 /// None for lines that say something else.
-std::optional<EngineNews> news_of(std::string_view line);
+std::optional<EngineStatus> news_of(std::string_view line);
 
 }  // namespace sinew

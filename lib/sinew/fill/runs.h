@@ -45,7 +45,7 @@ struct IndexRange {
 };
 
 /// Returns which of 0 .. count - 1 are in the interval, enlarged by a margin above rounding errors.
-inline IndexRange whole_numbers(const Interval& at, int count) {
+inline IndexRange fixed_point_units(const Interval& at, int count) {
   return {static_cast<int>(std::ceil(std::clamp(at.low - 1e-6, 0.0, count + 0.0))),
           static_cast<int>(std::floor(std::clamp(at.high + 1e-6, -1.0, count - 1.0))) + 1};
 }
@@ -76,12 +76,12 @@ class RowRanges {
 
   IndexRange layers(const Interval& up) const {
     const auto at = [&](double z) { return z * layers_per_meter_ - lattice_.low[2]; };
-    return whole_numbers({at(up.low), at(up.high)}, static_cast<int>(lattice_.layers.size()));
+    return fixed_point_units({at(up.low), at(up.high)}, static_cast<int>(lattice_.layers.size()));
   }
   IndexRange rows(const LatticeLayer& layer, const Interval& across) const {
     const double first = double(layer.across) / across_step_;
     const auto at = [&](double y) { return y * rows_per_meter_ - first; };
-    return whole_numbers({at(across.low), at(across.high)}, layer.rows);
+    return fixed_point_units({at(across.low), at(across.high)}, layer.rows);
   }
   IndexRange sites(const LatticeRow& row, const Interval& along) const {
     const double first = 0.5 * (diagonal_ ? row.first[0] + row.first[1] : row.first[0]);

@@ -83,8 +83,8 @@ void Groups<Real>::show_all(BlockState<Real>& state, const Units& units) {
 }
 
 template <class Real>
-void Groups<Real>::wake(BlockState<Real>& state, const Units& units) {
-  if (any()) parts_->layout.wake(state, units);
+void Groups<Real>::activate(BlockState<Real>& state, const Units& units) {
+  if (any()) parts_->layout.activate(state, units);
 }
 
 template <class Real>

@@ -16,7 +16,7 @@
 //
 //     groups.watch(lists.arrays(), lists.take_changed(), bonds, meets);
 //     groups.place(state, units);                // before a step
-//     groups.wake(state, units);
+//     groups.activate(state, units);
 //     step.grouped = groups.arrays();
 //     groups.step(bonds, step, units, by, meets, totals);
 //     groups.advance();                          // after it, unless it failed
@@ -78,7 +78,7 @@ class Groups {
   /// Puts all there.
   void show_all(BlockState<Real>& state, const Units& units);
   /// Wakes the idle blocks that are touched at this moment, and no others.
-  void wake(BlockState<Real>& state, const Units& units);
+  void activate(BlockState<Real>& state, const Units& units);
   /// What neighbor lists see; valid as long as state and units are.
   GroupedParticles seen(BlockState<Real>& state, const Units& units);
   /// Whether the particle at place k is in an idle block.

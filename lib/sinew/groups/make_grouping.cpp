@@ -48,7 +48,7 @@ class LayerFinder {
         r_(body.material.pair.r),
         range_(holds_seconds(body) ? second_neighbor_range * r_ : rest_neighbor_range(r_)),
         whole_(holds_seconds(body) ? near_sites : nearest_sites),
-        by_sites_(may_bend(body)),
+        by_sites_(supports_cubic_groups(body)),
         near_(neighbors_within(body.rest, range_)) {
     if (has_affine_forces(body)) affine_.emplace(body);
   }
@@ -275,7 +275,7 @@ StretchRange stretch_range(const Body& body) {
 
 bool groups_are_built() { return true; }
 
-bool may_bend(const Body& body) {
+bool supports_cubic_groups(const Body& body) {
   return law_of(body.material).has_bonds && has_affine_forces(body) && !keeps_volume(body);
 }
 

@@ -67,7 +67,7 @@ struct StretchRange {
 StretchRange stretch_range(const Body& body);
 
 /// Whether groups of the body may move by cubics: what acts within them are bonds alone.
-bool may_bend(const Body& body);
+bool supports_cubic_groups(const Body& body);
 
 /// Throws bad input, which names what is wrong, where the body is no lattice of centers of
 /// inversion, or where forces on it depend on more than its neighbors.

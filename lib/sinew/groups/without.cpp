@@ -18,7 +18,7 @@ namespace {
 }  // namespace
 
 bool groups_are_built() { return false; }
-bool may_bend(const Body&) { return false; }
+bool supports_cubic_groups(const Body&) { return false; }
 void check_groupable(const Body&) { refuse(); }
 Grouping make_grouping(const Body&, std::vector<std::int32_t>, std::size_t) { refuse(); }
 Grouping static_groups(const Body&, const std::vector<bool>&, const GroupSizes&) { refuse(); }
@@ -52,7 +52,7 @@ void Groups<Real>::place(BlockState<Real>&, const Units&) {}
 template <class Real>
 void Groups<Real>::show_all(BlockState<Real>&, const Units&) {}
 template <class Real>
-void Groups<Real>::wake(BlockState<Real>&, const Units&) {}
+void Groups<Real>::activate(BlockState<Real>&, const Units&) {}
 template <class Real>
 GroupedParticles Groups<Real>::seen(BlockState<Real>&, const Units&) {
   return {};

@@ -29,60 +29,55 @@ Error no_checkpoint(const std::string& what) {
 }
 
 /// Visits all values of a checkpoint in the order of the file, for both the writer and the reader:
-/// transfer(name, value or list of values).
-template <class State, class Transfer>
-void walk(State& checkpoint, Transfer&& transfer) {
+/// archive(name, value or list of values).
+template <class State, class Archive>
+void serialize_checkpoint(Archive& archive, State& checkpoint) {
   auto& run = checkpoint.run;
   auto& state = checkpoint.state;
-  transfer("program", run.program);
-  transfer("scene", run.scene);
-  transfer("body", run.body);
-  transfer("motion", run.motion);
-  transfer("count", run.particles);
-  transfer("timestep", run.time_step);
-  transfer("steps", state.steps);
-  for (auto* ledger : {&state.ledger, &state.world_ledger}) {
-    transfer("work", ledger->work);
-    transfer("lost", ledger->dissipation);
-    transfer("power", ledger->power);
-    transfer("begun", ledger->begun);
-  }
-  transfer("heldkin", state.held_at_start);
-  transfer("kicked", state.kicked);
-  transfer("length", state.whole_numbers.length);
-  transfer("origin", state.whole_numbers.origin);
-  transfer("boxlow", state.whole_numbers.box.min());
-  transfer("boxhigh", state.whole_numbers.box.max());
-  transfer("travel", state.whole_numbers.traveled);
-  transfer("meansort", state.mean_when_sorted);
-  transfer("order", state.order);
+  archive("program", run.program);
+  archive("scene", run.scene);
+  archive("body", run.body);
+  archive("motion", run.motion);
+  archive("count", run.particles);
+  archive("timestep", run.time_step);
+  archive("steps", state.steps);
+  for (auto* ledger : {&state.ledger, &state.world_ledger}) serialize(archive, *ledger);
+  archive("heldkin", state.held_at_start);
+  archive("kicked", state.kicked);
+  archive("length", state.fixed_point_units.length);
+  archive("origin", state.fixed_point_units.origin);
+  archive("boxlow", state.fixed_point_units.box.min());
+  archive("boxhigh", state.fixed_point_units.box.max());
+  archive("travel", state.fixed_point_units.traveled);
+  archive("meansort", state.mean_when_sorted);
+  archive("order", state.order);
   std::visit(
       [&](auto& moving) {
-        for (auto& axis : moving.x) transfer("position", axis);
-        for (auto& axis : moving.v) transfer("velocity", axis);
+        for (auto& axis : moving.x) archive("position", axis);
+        for (auto& axis : moving.v) archive("velocity", axis);
       },
       state.moving);
-  transfer("bonds", state.rest_length);
-  transfer("lanes", state.bonded_lanes);
-  transfer("creep", state.creep);
-  transfer("clocks", state.branch_clocks);
-  transfer("stretch", state.branch_stretches);
-  transfer("atrest", state.relaxation.at_rest);
-  transfer("iterate", state.relaxation.iterations);
-  transfer("shorter", state.relaxation.shortened);
-  transfer("damping", state.relaxation.damping);
-  transfer("pushed", state.relaxation.pushed);
-  transfer("largest", state.relaxation.largest);
-  transfer("applied", state.relaxation.applied);
-  transfer("unbal", state.relaxation.unbalanced);
-  transfer("slidpair", state.sliding_pairs);
-  transfer("sliding", state.sliding);
-  transfer("groups", state.groups);
-  transfer("grouping", state.grouping);
-  transfer("regroups", state.regrouping.times);
-  transfer("merging", state.regrouping.lost);
-  transfer("still", state.regrouping.still_since);
-  transfer("pressed", state.pressed);
+  archive("bonds", state.rest_length);
+  archive("lanes", state.bonded_lanes);
+  archive("creep", state.creep);
+  archive("clocks", state.branch_clocks);
+  archive("stretch", state.branch_stretches);
+  archive("atrest", state.relaxation.at_rest);
+  archive("iterate", state.relaxation.iterations);
+  archive("shorter", state.relaxation.shortened);
+  archive("damping", state.relaxation.damping);
+  archive("pushed", state.relaxation.pushed);
+  archive("largest", state.relaxation.largest);
+  archive("applied", state.relaxation.applied);
+  archive("unbal", state.relaxation.unbalanced);
+  archive("slidpair", state.sliding_pairs);
+  archive("sliding", state.sliding);
+  archive("groups", state.groups);
+  archive("grouping", state.grouping);
+  archive("regroups", state.regrouping.times);
+  archive("merging", state.regrouping.lost);
+  archive("still", state.regrouping.still_since);
+  archive("pressed", state.pressed);
 }
 
 template <class Value>
@@ -290,7 +285,7 @@ Checkpoint parsed(std::string_view text, std::uint64_t particles) {
   Checkpoint checkpoint;
   if (reader.element_of("position") == sizeof(std::int32_t))
     checkpoint.state.moving = MovingInSingle();
-  walk(checkpoint, reader);
+  serialize_checkpoint(reader, checkpoint);
   if (reader.left() > 0) throw no_checkpoint("it continues after its last section");
   check_count(checkpoint.run.particles, particles);
   return checkpoint;
@@ -317,14 +312,14 @@ void check_count_in(std::string_view head, std::uint64_t particles) {
 
 void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
   Size size;
-  walk(checkpoint, size);
+  serialize_checkpoint(size, checkpoint);
   NewFile file(path);
   Writer writer(file);
   writer.put(magic.data(), magic.size());
   writer.put(byte_order_mark);
   writer.put(format_version);
   writer.put(head_size + size.bytes() + tail_size);
-  walk(checkpoint, writer);
+  serialize_checkpoint(writer, checkpoint);
   const std::uint64_t hash = writer.hash();
   writer.put(hash);
   writer.flush();

@@ -197,9 +197,9 @@ template <class Real>
 struct Grouped {
   const std::int32_t*
       role;  ///< by block: working, idle (a step leaves it out) or a row; null: working
-  const std::uint8_t* asleep;  ///< by block: nobody needs its deformation or its counts
-  const std::uint8_t* whole;   ///< by block: all of it is grouped, whose speeds are known
-  Real* acceleration[3];       ///< rows x block
+  const std::uint8_t* inactive;  ///< by block: nobody needs its deformation or its counts
+  const std::uint8_t* whole;     ///< by block: all of it is grouped, whose speeds are known
+  Real* acceleration[3];         ///< rows x block
 };
 
 /// Particles [begin, end) of a group, to be put where its motion brings them.

@@ -131,17 +131,17 @@ template <class L>
   store<L>(step.surroundings.acceleration, row, forces.acceleration);
 }
 
-/// After the surroundings have acted. Particles that pins hold move as told.
+/// After the surroundings have acted. Particles that pins hold move as prescribed.
 template <class L>
 [[gnu::noinline]] Forces<L> kept(const Step<typename L::Real>& step, std::ptrdiff_t row,
                                  const Triple<L>& velocity) {
   Forces<L> forces = place_of_forces<L>(step, row);
   forces.acceleration = load<L>(step.surroundings.acceleration, row);
-  const auto told = L::less(L::all(0), L::load(step.surroundings.held + row));
+  const auto prescribed = L::less(L::all(0), L::load(step.surroundings.held + row));
   const Triple<L>& carried = forces.bones.carried;
-  forces.bones.carried = {L::pick(told, velocity.x, carried.x),
-                          L::pick(told, velocity.y, carried.y),
-                          L::pick(told, velocity.z, carried.z)};
+  forces.bones.carried = {L::pick(prescribed, velocity.x, carried.x),
+                          L::pick(prescribed, velocity.y, carried.y),
+                          L::pick(prescribed, velocity.z, carried.z)};
   return forces;
 }
 
@@ -394,7 +394,7 @@ void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
   const LawOf<L, pairs> law = law_of<L, pairs>(step);
   const std::size_t last = end * blocks_per_piece;
   for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block) {
-    if (step.grouped.asleep != nullptr && step.grouped.asleep[block] != 0) continue;
+    if (step.grouped.inactive != nullptr && step.grouped.inactive[block] != 0) continue;
     for (int lane = 0; lane < size; lane += L::width) {
       bool strained = false;
       const typename L::V count =

@@ -189,7 +189,7 @@ void strain_pieces(const Step<typename L::Real>& step, std::size_t begin, std::s
   constexpr int size = Traits<typename L::Real>::block;
   const std::size_t last = end * blocks_per_piece;
   for (std::size_t block = begin * blocks_per_piece; block < last && block < step.blocks; ++block) {
-    if (step.grouped.asleep != nullptr && step.grouped.asleep[block] != 0) continue;
+    if (step.grouped.inactive != nullptr && step.grouped.inactive[block] != 0) continue;
     if (!has_strain(step, block)) continue;
     fetch_for_strain(step, block);
     for (int lane = 0; lane < size; lane += L::width) find_strain<L>(step, block, lane);

@@ -92,7 +92,7 @@ class LammpsRun {
 
   Exit to_end() {
     const EngineSetup& setup = body_.setup;
-    if (setup.frames > 0) told_ = setup.start.steps;
+    if (setup.frames > 0) reported_ = setup.start.steps;
     if (setup.frames == 0) {
       run(0);
       tell_state();
@@ -182,11 +182,11 @@ class LammpsRun {
   /// Writes the state, unless it is there already or was the beginning, and says so.
   void tell_state() {
     if (Ranks::first()) wait_for_reader();
-    if (fix_->steps() != told_) write_state();
-    told_ = fix_->steps();
-    unread_.push_back(told_);
+    if (fix_->steps() != reported_) write_state();
+    reported_ = fix_->steps();
+    unread_.push_back(reported_);
     if (Ranks::first() && talk_.news)
-      talk_.news({told_, fix_->interrupted() == Interruption::unstable});
+      talk_.news({reported_, fix_->interrupted() == Interruption::unstable});
   }
 
   /// Who reads the states removes them: there are never many, and the others wait as well.
@@ -297,7 +297,7 @@ class LammpsRun {
   LAMMPS_NS::LAMMPS lammps_;
   PairSinew* pair_ = nullptr;  ///< LAMMPS's, as the fix
   FixSinew* fix_ = nullptr;
-  std::int64_t told_ = -1;            ///< the step of the last state
+  std::int64_t reported_ = -1;        ///< the step of the last state
   std::vector<std::int64_t> unread_;  ///< states
 };
 

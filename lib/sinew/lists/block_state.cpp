@@ -202,7 +202,7 @@ Box BlockState<Real>::box(const Units& units, std::size_t grain) const {
 template class BlockState<double>;
 template class BlockState<float>;
 
-bool is_sound(const WholeNumbers& saved) {
+bool is_sound(const FixedPointUnits& saved) {
   return saved.length > 0 && std::isfinite(saved.length) && saved.origin.allFinite() &&
          saved.box.min().allFinite() && saved.box.max().allFinite() && saved.traveled >= 0 &&
          std::isfinite(saved.traveled);

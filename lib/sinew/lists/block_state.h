@@ -44,7 +44,7 @@ template <class Real>
 double free_travel(const Units& units);
 
 /// Whether units that were saved are finite and positive where they have to be.
-bool is_sound(const WholeNumbers& saved);
+bool is_sound(const FixedPointUnits& saved);
 
 /// Eq. 1 and the damping constant (kg/s) in these units, per particle `mass` (kg).
 template <class Real>

@@ -92,12 +92,12 @@ Vec3 LoadLists<Real>::force(std::size_t k) const {
 
 template <class Real>
 void LoadLists<Real>::add(std::size_t k, const Vec3& position, const Vec3& velocity,
-                          std::span<Reaction> of_loads) const {
+                          std::span<Reaction> load_reactions) const {
   if (first_.empty()) return;
   for (std::uint32_t n = first_[k]; n < first_[k + 1]; ++n) {
     const auto& [load, place] = loaded_[n];
     const Vec3 force = now_[load].force(place), arm = position - given_[load].pivot;
-    of_loads[load] += {force, arm.cross(force), force.dot(velocity)};
+    load_reactions[load] += {force, arm.cross(force), force.dot(velocity)};
   }
 }
 

@@ -38,7 +38,7 @@ class LoadLists {
   Vec3 force(std::size_t k) const;  ///< on particle k, N
   /// Adds what each load does to particle k at `position` with that `velocity`.
   void add(std::size_t k, const Vec3& position, const Vec3& velocity,
-           std::span<Reaction> of_loads) const;
+           std::span<Reaction> load_reactions) const;
   double sizes() const;  ///< the lengths of all forces, N
 
   void save(SimulationState& state) const { save_loads(now_, state); }

@@ -87,7 +87,7 @@ void NearPieces::find_limits(double time) {
 
 void NearPieces::survey(std::vector<PieceNow> pieces, double time) {
   parallel_for(near_.size(), pieces_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t piece = begin; piece < end; ++piece) settle(piece);
+    for (std::size_t piece = begin; piece < end; ++piece) rebase_margins(piece);
   });
   pieces_ = std::move(pieces);
   for (PieceNow& piece : pieces_) {
@@ -238,7 +238,7 @@ bool NearPieces::advance(std::span<const double> fastest, double time) {
       if (!(spare.used < std::min({spare.outer, spare.inner, spare.still}))) find_spare(piece);
     }
   });
-  sort_out();
+  collect_due_pieces();
   return true;
 }
 
@@ -255,7 +255,7 @@ void NearPieces::find_spare(std::size_t piece) {
 }
 
 /// Before the next survey: from now on, nothing has been used of what is left.
-void NearPieces::settle(std::size_t piece) {
+void NearPieces::rebase_margins(std::size_t piece) {
   for (Near& near : near_[piece]) {
     const double used = used_of(piece, near);
     near.outer -= used;
@@ -265,7 +265,7 @@ void NearPieces::settle(std::size_t piece) {
 }
 
 /// Whose lists are due: outer lists also where too little is left for inner lists to last.
-void NearPieces::sort_out() {
+void NearPieces::collect_due_pieces() {
   to_list_.clear();
   to_prune_.clear();
   to_look_at_.clear();

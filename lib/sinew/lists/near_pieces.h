@@ -117,9 +117,9 @@ class NearPieces {
   float rate_between(std::size_t piece, std::size_t near) const;
   void find_rates(std::size_t piece);
   void copy_rates(std::size_t piece);
-  void settle(std::size_t piece);
+  void rebase_margins(std::size_t piece);
   void find_spare(std::size_t piece);
-  void sort_out();
+  void collect_due_pieces();
   /// How much nearer particles of a piece and one near it may have come since the survey.
   double used_of(std::size_t piece, const Near& near) const {
     return gone_[piece] + gone_[near.piece] + static_cast<double>(near.rate) * elapsed_;

@@ -110,7 +110,7 @@ template <class Real>
 void ParticleLayout<Real>::save(SimulationState& state) const {
   state.moving = now.columns();
   state.order = caller_;
-  state.whole_numbers = {units_.length, units_.origin, units_box_, traveled_};
+  state.fixed_point_units = {units_.length, units_.origin, units_box_, traveled_};
 }
 
 template <class Real>
@@ -118,16 +118,16 @@ void ParticleLayout<Real>::restore(const SimulationState& state) {
   const auto* moving = std::get_if<Columns>(&state.moving);
   if (moving == nullptr) throw not_a_state("it is in another precision");
   check_moving(*moving, size());
-  check_places(*moving, state.whole_numbers);
+  check_places(*moving, state.fixed_point_units);
   restore_order(state.order);
-  restore_units(state.whole_numbers);
+  restore_units(state.fixed_point_units);
   now.set_columns(*moving);
   next = now;
 }
 
 /// Lists count from end to end of the body, which a state from elsewhere may have torn apart.
 template <class Real>
-void ParticleLayout<Real>::check_places(const Columns& moving, const WholeNumbers& saved) const {
+void ParticleLayout<Real>::check_places(const Columns& moving, const FixedPointUnits& saved) const {
   constexpr double farthest = 1e6, finest = 1e-12;  // of the body's size
   const double size_now = units_box_.diagonal().norm() + pair_.b;
   const Vec3 middle = units_box_.center();
@@ -162,7 +162,7 @@ void ParticleLayout<Real>::restore_order(const std::vector<std::uint32_t>& order
 }
 
 template <class Real>
-void ParticleLayout<Real>::restore_units(const WholeNumbers& saved) {
+void ParticleLayout<Real>::restore_units(const FixedPointUnits& saved) {
   units_.length = saved.length;
   units_.origin = saved.origin;
   units_box_ = saved.box;

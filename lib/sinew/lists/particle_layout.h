@@ -54,8 +54,8 @@ class ParticleLayout {
   using Columns = MovingColumns<typename BlockState<Real>::Coord, Real>;
 
   void restore_order(const std::vector<std::uint32_t>& order);
-  void restore_units(const WholeNumbers& saved);
-  void check_places(const Columns& moving, const WholeNumbers& saved) const;
+  void restore_units(const FixedPointUnits& saved);
+  void check_places(const Columns& moving, const FixedPointUnits& saved) const;
 
   PairForce pair_;
   double step_ = 0;  ///< s

@@ -44,7 +44,7 @@ VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const Mate
 }
 
 template <class Real>
-VerletLists<Real> VerletLists<Real>::anew(double step) const {
+VerletLists<Real> VerletLists<Real>::cleared(double step) const {
   VerletLists lists;
   lists.kernel_ = kernel_;
   lists.contacts_ = contacts_;

@@ -46,7 +46,7 @@ class VerletLists {
   void add_moved(std::size_t piece, double moved);
 
   /// Lists of the same kind, for steps of `step` (s), not yet made, that go on with its counts.
-  VerletLists anew(double step) const;
+  VerletLists cleared(double step) const;
   bool made() const { return !inner_.empty(); }
   /// Makes all lists; or those of some of the pieces of a large body, to see how long they are.
   void make(BlockState<Real>& state, PieceParts parts, const BondLists<Real>& bonds,

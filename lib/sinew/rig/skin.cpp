@@ -181,8 +181,8 @@ std::vector<char> reached_from_nearest(const Support& support, const Points& poi
   return reached;
 }
 
-void drop_strangers(const Points& points, double radius, const Skeleton& skeleton,
-                    const Binding& binding, Support& support) {
+void drop_unrelated_particles(const Points& points, double radius, const Skeleton& skeleton,
+                              const Binding& binding, Support& support) {
   if (support.near.empty()) return;
   const std::uint32_t nearest = support.near.front().particle;
   const auto is_stranger = [&](const Near& one) {
@@ -215,7 +215,7 @@ Skin make_skin(const Points& vertices, const Points& points, double radius,
   std::vector<Support> supports = supports_of(vertices, points, reach_in_radii * radius);
   parallel_for(supports.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      drop_strangers(points, radius, skeleton, binding, supports[i]);
+      drop_unrelated_particles(points, radius, skeleton, binding, supports[i]);
   });
   return skin_of(vertices, points, radius, supports);
 }

@@ -90,7 +90,7 @@ EngineSteps::EngineSteps(Engine engine, const std::filesystem::path& folder,
 }
 
 void EngineSteps::advance(Simulation& simulation, const std::function<Interruption()>& wanted) {
-  const EngineNews news = engine_.next(wanted);
+  const EngineStatus news = engine_.next(wanted);
   if (news.steps != simulation.steps()) {
     moment_ = read_engine_moment(folder_, news.steps);
     simulation.restore(read_engine_state(folder_, news.steps, simulation.save(), ids_));

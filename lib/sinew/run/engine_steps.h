@@ -25,7 +25,7 @@ struct Engine {
   std::function<void(const EngineFolder& folder)> start;
   /// Waits for the next state. `wanted` is asked several times a second meanwhile. Throws where the
   /// engine ends without one.
-  std::function<EngineNews(const std::function<Interruption()>& wanted)> next;
+  std::function<EngineStatus(const std::function<Interruption()>& wanted)> next;
   std::function<void()> finish;  ///< ends it, before its time if need be
 };
 

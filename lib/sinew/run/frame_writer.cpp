@@ -228,8 +228,8 @@ FrameWriter::Moved FrameWriter::take(Simulation& simulation, double time) {
     frame.obstacles = std::move(now.obstacles);
     frame.on_obstacles = simulation.reactions_of_obstacles();
     frame.supports = std::move(now.supports);
-    frame.of_supports = simulation.of_supports();
-    frame.of_loads = simulation.of_loads();
+    frame.support_reactions = simulation.support_reactions();
+    frame.load_reactions = simulation.load_reactions();
   }
   if (frame.with_particles) frame.broken_bonds = simulation.broken_bonds();
   frame.grouping = simulation.body().grouping;
@@ -270,8 +270,8 @@ void FrameWriter::write(Moved& frame) {
 }
 
 void FrameWriter::write_supports(const Moved& frame) {
-  const MachineMoment now = {frame.moment.time, frame.positions, frame.supports, frame.of_supports,
-                             frame.of_loads};
+  const MachineMoment now = {frame.moment.time, frame.positions, frame.supports,
+                             frame.support_reactions, frame.load_reactions};
   const std::vector<SupportFrame> frames = support_frames(*body_.world, now, body_.rest);
   support_table_->add(now, frames);
   support_series_->add(supports_dataset(frames, frame.moment));

@@ -97,7 +97,7 @@ class FrameWriter {
     std::vector<ObstaclePose> obstacles;
     std::vector<Reaction> on_obstacles;
     std::vector<ObstaclePose> supports;
-    std::vector<Reaction> of_supports, of_loads;
+    std::vector<Reaction> support_reactions, load_reactions;
   };
 
   /// The surface moved by skinning alone, in a series of its own.

@@ -47,10 +47,10 @@ std::vector<SupportFrame> support_frames(const World& world, const MachineMoment
   std::vector<SupportFrame> frames;
   for (std::size_t k = 0; k < world.supports.size(); ++k)
     frames.push_back(frame_of(false, mean_of(world.supports[k], now.positions),
-                              mean_of(world.supports[k], rest), now.of_supports[k]));
+                              mean_of(world.supports[k], rest), now.support_reactions[k]));
   for (std::size_t k = 0; k < world.loads.size(); ++k)
     frames.push_back(frame_of(true, mean_of(world.loads[k], now.positions),
-                              mean_of(world.loads[k], rest), now.of_loads[k]));
+                              mean_of(world.loads[k], rest), now.load_reactions[k]));
   return frames;
 }
 

@@ -21,7 +21,7 @@ struct MachineMoment {
   double time;              ///< s
   const Points& positions;  ///< by id, m
   std::span<const ObstaclePose> supports;
-  std::span<const Reaction> of_supports, of_loads;  ///< on the body
+  std::span<const Reaction> support_reactions, load_reactions;  ///< on the body
 };
 
 /// Supports first, then loads, in their order. `rest`: by id, m.

@@ -44,7 +44,7 @@ void check_groups(const Settings& settings, const Body& body) {
   with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
   if (settings.hierarchy.motion != GroupForm::cubic) return;
   const Place motion = settings.place("hierarchy.motion");
-  if (!may_bend(body))
+  if (!supports_cubic_groups(body))
     throw bad_input(motion,
                     "only in bonded bodies without volume terms, pairwise damping and obstacles do "
                     "groups move by cubics",
@@ -93,7 +93,7 @@ std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body
   sizes.joint_distance = asked.joint_distance.value_or(affine_distance);
   sizes.min_particles = static_cast<std::size_t>(asked.min_particles);
   sizes.kept_free = kept_free(body, asked_free(settings, body));
-  if (asked.motion == GroupForm::affine || !may_bend(body)) return sizes;
+  if (asked.motion == GroupForm::affine || !supports_cubic_groups(body)) return sizes;
   sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance_of(body));
   sizes.min_cubic = std::max(sizes.min_particles, sizes.min_cubic);
   return sizes;

@@ -285,7 +285,7 @@ Simulation start(Prepared&& prepared) {
     simulation.relax(*std::move(prepared.load_steps));
   else
     simulation.follow(std::move(prepared.plan));
-  if (prepared.dynamic_groups) simulation.group_as_it_moves(*prepared.dynamic_groups);
+  if (prepared.dynamic_groups) simulation.enable_dynamic_groups(*prepared.dynamic_groups);
   return simulation;
 }
 

@@ -212,7 +212,7 @@ Relaxation::Iteration relaxation_of(const Body& body, Stepper& stepper, double s
   stepper.save(state);
   const double extent = bounds(body.rest).diagonal().norm();
   const double unit = std::holds_alternative<MovingInSingle>(state.moving)
-                          ? state.whole_numbers.length
+                          ? state.fixed_point_units.length
                           : extent * std::numeric_limits<double>::epsilon();
   return {step, noise_of(body, unit), body.material.pair.r};
 }

@@ -225,7 +225,7 @@ void Simulation::change_step(double step) {
   const double later = behind ? (its_->stepping.step - step) / 2 : 0;
   SimulationState state = save();
   const double unit = std::holds_alternative<MovingInSingle>(state.moving)
-                          ? state.whole_numbers.length / its_->unit_of_time
+                          ? state.fixed_point_units.length / its_->unit_of_time
                           : 1;
   const auto shift = [&](auto& moving) {
     for (std::size_t k = 0; k < moving.x[0].size(); ++k) {
@@ -336,7 +336,7 @@ std::int64_t Simulation::regroupings() const {
   return its_->dynamic ? its_->dynamic->state().times : 0;
 }
 
-void Simulation::group_as_it_moves(const DynamicOptions& options) {
+void Simulation::enable_dynamic_groups(const DynamicOptions& options) {
   if (!its_->stepper->has_groups())
     throw bad_input("the paper's cells have no groups", "search neighbors by lists");
   check_groupable(*its_->body);
@@ -496,12 +496,12 @@ std::vector<Reaction> Simulation::reactions_of_obstacles() {
   return its_->stepper->reactions().obstacles;
 }
 
-std::vector<Reaction> Simulation::of_supports() {
+std::vector<Reaction> Simulation::support_reactions() {
   evaluate();
   return its_->stepper->reactions().supports;
 }
 
-std::vector<Reaction> Simulation::of_loads() {
+std::vector<Reaction> Simulation::load_reactions() {
   evaluate();
   return its_->stepper->reactions().loads;
 }

@@ -62,7 +62,7 @@ class Simulation {
 
   /// Changes groups of particles as the body moves, from now on. Throws bad input for the reference
   /// stepper.
-  void group_as_it_moves(const DynamicOptions& options);
+  void enable_dynamic_groups(const DynamicOptions& options);
   /// Lost where particles joined groups, J; part of the dissipation.
   double lost_by_merging() const;
   std::int64_t regroupings() const;
@@ -120,8 +120,8 @@ class Simulation {
   std::vector<Reaction> reactions_of_obstacles();
   /// The force of each support and load of its world on the body at the present moment, about its
   /// pivot. The inertia of what supports hold is not part of it.
-  std::vector<Reaction> of_supports();
-  std::vector<Reaction> of_loads();
+  std::vector<Reaction> support_reactions();
+  std::vector<Reaction> load_reactions();
   /// The force of the body on each bone at the present moment, about its head.
   BoneReactions reactions_of_bones();
 

@@ -97,7 +97,7 @@ void tell_apart(std::vector<StudiedRun>& runs, const std::vector<fs::path>& fold
 
 using Values = std::vector<double>;
 
-bool told(const Values& values) {
+bool is_reported(const Values& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
@@ -136,7 +136,7 @@ class ResultsOf {
   void add(std::string_view name, const char* kind, std::string_view unit, const Of& of) {
     StudiedResult result{std::string(name), kind, std::string(unit), {}, {}};
     for (std::size_t run = 0; run < runs_.size(); ++run) result.values.push_back(of(run));
-    if (told(result.values)) results_.push_back(std::move(result));
+    if (is_reported(result.values)) results_.push_back(std::move(result));
   }
 
   void add_metric(std::size_t number) {

@@ -16,24 +16,24 @@ constexpr double steepest_edge = 1.5;  // of 3 s^2 - 2 s^3, per width
 /// Unit vectors outside the core, proportionally shorter inside.
 Vec3 softened(const Vec3& offset, double core) { return offset / std::max(offset.norm(), core); }
 
-Vec3 force_of(const UniformAcceleration& form, const Vec3&, const Grain& grain) {
+Vec3 force_of(const UniformAcceleration& form, const Vec3&, const ParticleInfo& grain) {
   return grain.mass * form.acceleration;
 }
 
-Vec3 force_of(const ForceDensity& form, const Vec3&, const Grain& grain) {
+Vec3 force_of(const ForceDensity& form, const Vec3&, const ParticleInfo& grain) {
   return grain.volume * form.density;
 }
 
-Vec3 force_of(const Attraction& form, const Vec3& position, const Grain& grain) {
+Vec3 force_of(const Attraction& form, const Vec3& position, const ParticleInfo& grain) {
   return grain.mass * form.acceleration * softened(form.point - position, form.core);
 }
 
-Vec3 force_of(const Swirl& form, const Vec3& position, const Grain& grain) {
+Vec3 force_of(const Swirl& form, const Vec3& position, const ParticleInfo& grain) {
   return grain.mass * form.acceleration *
          softened(form.axis.normalized().cross(position - form.point), form.core);
 }
 
-Vec3 force_of(const CustomForce& form, const Vec3& position, const Grain& grain) {
+Vec3 force_of(const CustomForce& form, const Vec3& position, const ParticleInfo& grain) {
   return form.force(position, grain);
 }
 
@@ -43,15 +43,17 @@ struct Steepness {
   double length = std::numeric_limits<double>::infinity();
 };
 
-Steepness steepness(const UniformAcceleration& form, const Grain& grain) {
+Steepness steepness(const UniformAcceleration& form, const ParticleInfo& grain) {
   return {grain.mass * form.acceleration.norm()};
 }
-Steepness steepness(const ForceDensity& form, const Grain& grain) {
+Steepness steepness(const ForceDensity& form, const ParticleInfo& grain) {
   return {grain.volume * form.density.norm()};
 }
-Steepness steepness(const CustomForce& form, const Grain&) { return {form.largest, form.length}; }
+Steepness steepness(const CustomForce& form, const ParticleInfo&) {
+  return {form.largest, form.length};
+}
 template <typename Form>
-Steepness steepness(const Form& form, const Grain& grain) {
+Steepness steepness(const Form& form, const ParticleInfo& grain) {
   return {grain.mass * std::abs(form.acceleration), form.core};
 }
 
@@ -96,14 +98,15 @@ void check_form(const Swirl& form, const std::string& name) {
 
 }  // namespace
 
-Vec3 field_force(const ForceField& field, double scale, const Vec3& position, const Grain& grain) {
+Vec3 field_force(const ForceField& field, double scale, const Vec3& position,
+                 const ParticleInfo& grain) {
   const double share = scale * field.region.weight(position);
   if (share == 0) return Vec3::Zero();
   return share *
          std::visit([&](const auto& form) { return force_of(form, position, grain); }, field.form);
 }
 
-double field_stiffness(const ForceField& field, const Grain& grain) {
+double field_stiffness(const ForceField& field, const ParticleInfo& grain) {
   const Steepness most =
       std::visit([&](const auto& form) { return steepness(form, grain); }, field.form);
   const bool soft_edge = field.region.shape && field.region.falloff > 0;

@@ -40,7 +40,7 @@ struct Swirl {
 };
 
 /// A particle as fields see it.
-struct Grain {
+struct ParticleInfo {
   double mass;    ///< kg
   double volume;  ///< of the body at rest, m^3
   std::size_t id = 0;
@@ -48,8 +48,8 @@ struct Grain {
 
 /// A force of one's own. It is called from several threads at once.
 struct CustomForce {
-  std::function<Vec3(const Vec3& position, const Grain& grain)> force;  ///< N
-  double largest = 0;                                                   ///< bound of its size, N
+  std::function<Vec3(const Vec3& position, const ParticleInfo& grain)> force;  ///< N
+  double largest = 0;                                       ///< bound of its size, N
   double length = std::numeric_limits<double>::infinity();  ///< over which it changes by as much, m
 };
 
@@ -69,11 +69,12 @@ struct Drag {
 };
 
 /// The force on a particle at `position`, N, with the keys' value `scale`.
-Vec3 field_force(const ForceField& field, double scale, const Vec3& position, const Grain& grain);
+Vec3 field_force(const ForceField& field, double scale, const Vec3& position,
+                 const ParticleInfo& grain);
 
 /// An upper bound of the force's gradient at any time, N/m. The edge of a region without falloff is
 /// left out: a particle crosses it in no time.
-double field_stiffness(const ForceField& field, const Grain& grain);
+double field_stiffness(const ForceField& field, const ParticleInfo& grain);
 
 /// Throws bad input for numbers that are not finite, cores that are not positive, an axis without
 /// direction, and bad regions or keys.

@@ -42,7 +42,7 @@ inline OwnForces::OwnForces(std::size_t particles)
 inline std::shared_ptr<const World> OwnForces::added_to(
     const std::shared_ptr<const World>& world) const {
   World with = world ? *world : World();
-  const auto force = [forces = forces_](const Vec3&, const Grain& grain) {
+  const auto force = [forces = forces_](const Vec3&, const ParticleInfo& grain) {
     return (*forces)[grain.id];
   };
   with.fields.push_back({"own", CustomForce{force}, {}, {}});

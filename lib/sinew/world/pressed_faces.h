@@ -46,13 +46,13 @@ class PressedFaces {
   template <class Position>
   bool find(const Position& position, bool stepping) {
     if (empty()) return false;
-    const bool anew = !found_ || (stepping && left_ == 0);
-    if (anew) {
+    const bool due = !found_ || (stepping && left_ == 0);
+    if (due) {
       on_all(at_.size(), [&](std::size_t k) { at_[k].template head<3>() = position(k); });
       move_corners(stepping);
     }
     if (stepping) --left_;
-    return anew;
+    return due;
   }
 
   Vec3 force(std::size_t k) const { return forces_[k].head<3>(); }  ///< on particle k, N/Pa

@@ -177,11 +177,11 @@ PinPose place_of(const Pinned& held, const Vec3& rest, std::span<const Support> 
 }
 
 void add_answer(const Pinned& held, const PinPose& at, const Vec3& answer,
-                std::span<const ObstaclePose> now, std::span<Reaction> of_supports) {
+                std::span<const ObstaclePose> now, std::span<Reaction> support_reactions) {
   if (held.is_oblique()) {
     const auto k = static_cast<std::size_t>(held.support[0]);
     const Vec3 force = held_part(held, answer);
-    of_supports[k] +=
+    support_reactions[k] +=
         {force, (at.position - now[k].frame.origin).cross(force), force.dot(at.velocity)};
     return;
   }
@@ -191,7 +191,7 @@ void add_answer(const Pinned& held, const PinPose& at, const Vec3& answer,
     const auto k = static_cast<std::size_t>(index);
     Vec3 force = Vec3::Zero();
     force[axis] = answer[axis];
-    of_supports[k] +=
+    support_reactions[k] +=
         {force, (at.position - now[k].frame.origin).cross(force), answer[axis] * at.velocity[axis]};
   }
 }

@@ -49,7 +49,7 @@ PinPose place_of(const Pinned& held, const Vec3& rest, std::span<const Support> 
 /// the body, its moment about their pivots, and its power into the body. The inertia of the
 /// particle is not part of it.
 void add_answer(const Pinned& held, const PinPose& at, const Vec3& answer,
-                std::span<const ObstaclePose> now, std::span<Reaction> of_supports);
+                std::span<const ObstaclePose> now, std::span<Reaction> support_reactions);
 
 /// The same components of `all`, 0 where `held` does not hold them.
 Vec3 held_part(const Pinned& held, const Vec3& all);

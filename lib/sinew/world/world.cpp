@@ -35,7 +35,7 @@ class Gatherer {
   }
 
   void add_fields() {
-    const Grain grain = {mass_, volume_per_particle(particle_.radius), particle_.id};
+    const ParticleInfo grain = {mass_, volume_per_particle(particle_.radius), particle_.id};
     for (std::size_t k = 0; k < world_.fields.size(); ++k)
       on.field += field_force(world_.fields[k], now_.scales[k], particle_.position, grain);
   }
@@ -144,7 +144,7 @@ ParticleWorld world_on(const HeldParticle& particle, double mass, const World& w
 }
 
 double added_stiffness(const World& world, const Particles& particles) {
-  const Grain grain = {particles.mass, volume_per_particle(particles.radius)};
+  const ParticleInfo grain = {particles.mass, volume_per_particle(particles.radius)};
   std::vector<double> springs;
   for (const Obstacle& obstacle : world.obstacles) springs.push_back(obstacle.stiffness);
   double sum = largest_few(springs) + muscle_stiffness(world.muscles, particles.radius);

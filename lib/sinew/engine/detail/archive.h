@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Values of any type as bytes, in this machine's byte order, for programs that work together in one
-// run. A struct needs one function, for both directions: walk(value, transfer) calls transfer for
-// each of its members.
+// run. A struct needs one function, for both directions: serialize(archive, value) calls archive
+// for each of its members.
 //
 //     const std::string bytes = archived(setup);
 //     const auto setup = unarchived<EngineSetup>(bytes);
@@ -36,7 +36,12 @@ class ArchiveWriter {
     else if constexpr (requires { value.size(), value.data(); })
       put_list(value);
     else
-      walk(const_cast<Value&>(value), *this);
+      serialize(*this, const_cast<Value&>(value));
+  }
+  /// A member whose name other archives write.
+  template <class Value>
+  void operator()(std::string_view, const Value& value) {
+    (*this)(value);
   }
   std::string take() { return std::move(bytes_); }
 
@@ -71,7 +76,11 @@ class ArchiveReader {
     else if constexpr (requires { value.size(), value.data(); })
       get_list(value);
     else
-      walk(value, *this);
+      serialize(*this, value);
+  }
+  template <class Value>
+  void operator()(std::string_view, Value& value) {
+    (*this)(value);
   }
   bool done() const { return bytes_.empty(); }
 

@@ -74,12 +74,12 @@ void GroupLayout<Real>::find_roles() {
   const std::size_t blocks = (places_.group.size() + block - 1) / block;
   const std::size_t pieces = (blocks + blocks_per_piece - 1) / blocks_per_piece;
   role_.assign(blocks, kernel::working);
-  for (auto* flags : {&always_, &asleep_, &whole_, &idle_}) flags->assign(blocks, 0);
+  for (auto* flags : {&always_, &inactive_, &whole_, &idle_}) flags->assign(blocks, 0);
   of_piece_.assign(pieces, -1);
   working_.assign(pieces, 0);
   watched_.assign(pieces, {});
   watching_.clear();
-  awake_.clear();
+  active_.clear();
   rim_.clear();
   rows_ = 0;
   find_pieces();
@@ -101,7 +101,7 @@ void GroupLayout<Real>::find_role(std::size_t b) {
   if (!some) return;
   role_[b] = all ? static_cast<std::int32_t>(kernel::idle) : rows_++;
   if (!all) working_[b / blocks_per_piece] = 1;
-  asleep_[b] = idle_[b] = all ? 1 : 0;
+  inactive_[b] = idle_[b] = all ? 1 : 0;
   whole_[b] = whole ? 1 : 0;
   if (all) return;
   for_each_run(begin, end, [&](GroupRun run) {
@@ -128,7 +128,7 @@ void GroupLayout<Real>::find_pieces() {
 template <class Real>
 void GroupLayout<Real>::put_into(kernel::Grouped<Real>& grouped) const {
   grouped.role = role_.data();
-  grouped.asleep = asleep_.data();
+  grouped.inactive = inactive_.data();
   grouped.whole = whole_.data();
 }
 
@@ -185,12 +185,12 @@ void GroupLayout<Real>::read_through(const BondLists<Real>& bonds) {
   for (int depth = 0; depth < (two_deep_ ? 2 : 1); ++depth) {
     std::vector<std::uint32_t> readers;
     for (std::uint32_t b = 0; b < role_.size(); ++b)
-      if (asleep_[b] == 0) readers.push_back(b);
+      if (inactive_[b] == 0) readers.push_back(b);
     std::vector<std::uint8_t> known =
         std::exchange(always_, std::vector<std::uint8_t>(role_.size(), 0));
     for (const std::uint32_t b : readers) mark_bonds(b, bonds);
     for (std::size_t b = 0; b < role_.size(); ++b) {
-      if (always_[b] != 0 && two_deep_ && depth == 0) asleep_[b] = 0;
+      if (always_[b] != 0 && two_deep_ && depth == 0) inactive_[b] = 0;
       if (known[b] != 0) always_[b] = 1;
     }
   }
@@ -221,16 +221,16 @@ void GroupLayout<Real>::watch_piece(const kernel::Lists& lists, std::size_t piec
 
 /// Marks what the block reads when it wakes.
 template <class Real>
-void GroupLayout<Real>::prepare_to_wake(std::uint32_t b, const BondLists<Real>& bonds) {
+void GroupLayout<Real>::prepare_to_activate(std::uint32_t b, const BondLists<Real>& bonds) {
   mark_read(static_cast<std::ptrdiff_t>(b * block), static_cast<std::ptrdiff_t>(b * block));
   if (bonds.first.empty()) return;
   mark_bonds(b, bonds);
   if (!two_deep_) return;
-  asleep_[b] = 0;
+  inactive_[b] = 0;
   for_each_reach(b, bonds, [&](std::ptrdiff_t first, std::ptrdiff_t last) {
     for (const std::ptrdiff_t k : {first, last}) {
       const auto other = static_cast<std::size_t>(k) / block;
-      asleep_[other] = 0;
+      inactive_[other] = 0;
       mark_bonds(other, bonds);
     }
   });
@@ -251,13 +251,14 @@ void GroupLayout<Real>::watch(const kernel::Lists* lists, std::span<const std::u
     if (lists[piece].first == nullptr) continue;
     std::uint32_t last = UINT32_MAX;
     for (const Watched& one : watched_[piece])
-      if (std::exchange(last, one.block) != one.block) prepare_to_wake(one.block, bonds);
+      if (std::exchange(last, one.block) != one.block) prepare_to_activate(one.block, bonds);
     for (std::size_t n = 0; n < blocks_per_piece; ++n) {
       const std::size_t b = piece * blocks_per_piece + n;
       if (b >= role_.size()) break;
-      const bool may_wake = std::any_of(watched_[piece].begin(), watched_[piece].end(),
-                                        [&](const Watched& one) { return one.block == b; });
-      if (may_wake || role_[b] != kernel::idle) mark_lists(b, lists[piece]);
+      const bool may_become_active =
+          std::any_of(watched_[piece].begin(), watched_[piece].end(),
+                      [&](const Watched& one) { return one.block == b; });
+      if (may_become_active || role_[b] != kernel::idle) mark_lists(b, lists[piece]);
     }
   }
   watching_.clear();
@@ -288,19 +289,19 @@ bool GroupLayout<Real>::touches(const Watched& watched, BlockState<Real>& state,
 }
 
 template <class Real>
-void GroupLayout<Real>::wake(BlockState<Real>& state, const Units& units) {
-  for (const std::uint32_t b : awake_) role_[b] = kernel::idle;
-  awake_.clear();
+void GroupLayout<Real>::activate(BlockState<Real>& state, const Units& units) {
+  for (const std::uint32_t b : active_) role_[b] = kernel::idle;
+  active_.clear();
   const Material& material = body_->material;
   const double range = (law_of(material).has_memory ? 2 * material.pair.r : material.pair.b) /
                        units.length * (1 + beyond_range);
   for (const std::uint32_t piece : watching_)
     for (const Watched& one : watched_[piece]) {
-      if (!awake_.empty() && awake_.back() == one.block) continue;
-      if (touches(one, state, range * range)) awake_.push_back(one.block);
+      if (!active_.empty() && active_.back() == one.block) continue;
+      if (touches(one, state, range * range)) active_.push_back(one.block);
     }
-  for (std::size_t k = 0; k < awake_.size(); ++k)
-    role_[awake_[k]] = rows_ + static_cast<std::int32_t>(k);
+  for (std::size_t k = 0; k < active_.size(); ++k)
+    role_[active_[k]] = rows_ + static_cast<std::int32_t>(k);
 }
 
 template class GroupLayout<double>;

@@ -7,7 +7,7 @@
 //
 //     layout.set_order(id, bonds, two_deep);
 //     layout.watch(lists.arrays(), lists.take_changed(), bonds, meets);
-//     layout.wake(state, units);  // before a step, after placing layout.read_in_steps()
+//     layout.activate(state, units);  // before a step, after placing layout.read_in_steps()
 #pragma once
 
 #include <array>
@@ -63,7 +63,7 @@ class GroupLayout {
   void watch(const kernel::Lists* lists, std::span<const std::uint32_t> pieces,
              const BondLists<Real>& bonds, const std::function<bool(std::size_t)>& meets);
   /// Wakes the blocks that are touched at this moment, and no others.
-  void wake(BlockState<Real>& state, const Units& units);
+  void activate(BlockState<Real>& state, const Units& units);
 
   const Places& places() const { return places_; }
   InnerParticles inner_particles() const;
@@ -73,10 +73,10 @@ class GroupLayout {
   bool is_idle(std::size_t b) const { return role_[b] == kernel::idle; }
   /// Whether it is idle unless it wakes.
   bool may_idle(std::size_t b) const { return idle_[b] != 0; }
-  const std::vector<std::uint32_t>& awake() const { return awake_; }  ///< blocks, ascending
+  const std::vector<std::uint32_t>& active() const { return active_; }  ///< blocks, ascending
   std::int64_t row(std::size_t b) const { return role_[b]; }
   /// Rows of rims and of what is awake.
-  std::size_t rows() const { return static_cast<std::size_t>(rows_) + awake_.size(); }
+  std::size_t rows() const { return static_cast<std::size_t>(rows_) + active_.size(); }
   const std::vector<GroupRun>& rim() const { return rim_; }
   /// The rim, and what a step reads of idle blocks.
   const std::vector<GroupRun>& read_in_steps();
@@ -106,17 +106,17 @@ class GroupLayout {
   void mark_bonds(std::size_t b, const BondLists<Real>& bonds);
   void mark_lists(std::size_t b, const kernel::Lists& lists);
   void watch_piece(const kernel::Lists& lists, std::size_t piece);
-  void prepare_to_wake(std::uint32_t b, const BondLists<Real>& bonds);
+  void prepare_to_activate(std::uint32_t b, const BondLists<Real>& bonds);
   bool touches(const Watched& watched, BlockState<Real>& state, double range2) const;
 
   const Body* body_ = nullptr;
   const std::vector<GroupShape>* shapes_ = nullptr;
   Places places_;
-  std::vector<std::int32_t> role_;    ///< by block: kernel::Role, or a row
-  std::vector<std::uint8_t> asleep_;  ///< by block
-  std::vector<std::uint8_t> whole_;   ///< by block
-  std::vector<std::uint8_t> idle_;    ///< by block: unless it is awake
-  std::vector<std::uint8_t> always_;  ///< by block: idle, but read in every step
+  std::vector<std::int32_t> role_;      ///< by block: kernel::Role, or a row
+  std::vector<std::uint8_t> inactive_;  ///< by block
+  std::vector<std::uint8_t> whole_;     ///< by block
+  std::vector<std::uint8_t> idle_;      ///< by block: unless it is awake
+  std::vector<std::uint8_t> always_;    ///< by block: idle, but read in every step
   std::vector<std::int32_t> of_piece_;
   std::vector<std::uint8_t> working_;
   std::vector<GroupRun> rim_;                  ///< of the blocks with rows
@@ -124,7 +124,7 @@ class GroupLayout {
   std::int32_t rows_ = 0;                      ///< of rims; those of what is awake follow
   std::vector<std::vector<Watched>> watched_;  ///< by piece
   std::vector<std::uint32_t> watching_;        ///< pieces that have any, ascending
-  std::vector<std::uint32_t> awake_;
+  std::vector<std::uint32_t> active_;
   bool two_deep_ = false, more_are_read_ = true;
 };
 

@@ -250,14 +250,14 @@ void GroupMotions<Real>::add_bones(const kernel::Step<Real>& step, const Units& 
 /// What the kernel gathered on those that are awake takes the place of what follows from the
 /// motion.
 template <class Real>
-void GroupMotions<Real>::add_awake(const BondLists<Real>& bonds, const kernel::Step<Real>& step,
-                                   Pulls& pulls) {
-  if (layout_->awake().empty()) return;
+void GroupMotions<Real>::add_active(const BondLists<Real>& bonds, const kernel::Step<Real>& step,
+                                    Pulls& pulls) {
+  if (layout_->active().empty()) return;
   const auto& places = layout_->places();
   const InnerParticles particles = layout_->inner_particles();
   const auto& at = places.at_of_kernel;
   const double minus = -1;
-  for (const std::uint32_t b : layout_->awake()) {
+  for (const std::uint32_t b : layout_->active()) {
     GroupRun run{static_cast<std::uint32_t>(b * block), static_cast<std::uint32_t>((b + 1) * block),
                  layout_->group_of_block(b)};
     const auto g = static_cast<std::size_t>(run.group);
@@ -303,7 +303,7 @@ void GroupMotions<Real>::sum(const BondLists<Real>& bonds, const kernel::Step<Re
   add_rims(pulls);
   add_bones(step, units, pulls);
   if (inner_) inner_->add(kernel_, motions_, pulls.inner);
-  add_awake(bonds, step, pulls);
+  add_active(bonds, step, pulls);
   add_skins(pulls);
   const double force = units.length / (units.time * units.time);
   const double watts = mass_ * force * units.length / units.time;

@@ -91,7 +91,7 @@ class GroupMotions {
   Coefficients sum_of(const GroupRun& run) const;
   void add_rims(Pulls& pulls) const;
   void add_bones(const kernel::Step<Real>& step, const Units& units, Pulls& pulls);
-  void add_awake(const BondLists<Real>& bonds, const kernel::Step<Real>& step, Pulls& pulls);
+  void add_active(const BondLists<Real>& bonds, const kernel::Step<Real>& step, Pulls& pulls);
   void add_skins(Pulls& pulls) const;
   void add(const kernel::PullSums& found, std::size_t group, Pulls& pulls);
   void move(std::size_t group, const Coefficients& acceleration, const GroupStep& by);

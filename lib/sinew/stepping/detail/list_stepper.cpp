@@ -149,7 +149,7 @@ kernel::Step<Real> ListStepper<Real>::begin(const TimedPose& moment, Points* wor
   groups_.watch(lists_.arrays(), lists_.take_changed(), bonds_,
                 [this](std::size_t piece) { return lists_.meets_others(piece); });
   groups_.place(layout_.now, layout_.units());
-  if (!whole) groups_.wake(layout_.now, layout_.units());
+  if (!whole) groups_.activate(layout_.now, layout_.units());
   place_bones(pose);
   surroundings_.begin(pose, time, layout_.now, layout_.units(), lists_, world_forces);
   if (has_muscles(*body_))
@@ -225,8 +225,8 @@ void ListStepper<Real>::advance(std::span<const TimedPose> begins, std::vector<S
 
 template <class Real>
 WorldReactions ListStepper<Real>::reactions() const {
-  return {surroundings_.reactions(), surroundings_.reactions_of_pins(), surroundings_.of_supports(),
-          surroundings_.of_loads()};
+  return {surroundings_.reactions(), surroundings_.reactions_of_pins(),
+          surroundings_.support_reactions(), surroundings_.load_reactions()};
 }
 
 template <class Real>
@@ -239,7 +239,7 @@ StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
   if (!std::all_of(totals_.begin(), totals_.end(),
                    [](const kernel::Totals& piece) { return piece.sound; })) {
     sums.failure = failure(pose);
-    lists_ = lists_.anew(stepping_.step);  // bonds stay broken
+    lists_ = lists_.cleared(stepping_.step);  // bonds stay broken
   }
   return sums;
 }
@@ -268,13 +268,13 @@ void ListStepper<Real>::accept() {
 template <class Real>
 void ListStepper<Real>::update_lists() {
   if (layout_.units_are_due()) groups_.show_all(layout_.now, layout_.units());
-  const bool stepped = std::exchange(stepped_, false), anew = layout_.change_units();
-  if (anew) follow_units();
+  const bool stepped = std::exchange(stepped_, false), resized = layout_.change_units();
+  if (resized) follow_units();
   add_moved();
   if (order_check_due()) {
     make_lists();
     if (lists_.mean_of_outer() > max_growth * mean_when_sorted_) sort();
-  } else if (anew || !lists_.made()) {
+  } else if (resized || !lists_.made()) {
     make_lists();
   } else if (stepped) {
     lists_.follow(layout_.now, bonds_, layout_.units(), totals_,
@@ -324,7 +324,7 @@ void ListStepper<Real>::sort() {
   Stopwatch watch;
   auto order = order_by_columns(layout_.now,
                                 column_edge * 2 * body_->material.pair.r / layout_.units().length);
-  VerletLists<Real> before = std::exchange(lists_, lists_.anew(stepping_.step));
+  VerletLists<Real> before = std::exchange(lists_, lists_.cleared(stepping_.step));
   const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
   lists_.make_some(layout_.now, parts(), bonds_, layout_.units());
@@ -355,7 +355,7 @@ template <class Real>
 void ListStepper<Real>::set_step(double step) {
   stepping_.step = step;
   surroundings_.set_step(step);
-  lists_ = lists_.anew(step);
+  lists_ = lists_.cleared(step);
   order_checked_ = -1;
   stepped_ = false;
 }
@@ -390,7 +390,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   steps_ = state.steps;
   order_checked_ = -1;
   stepped_ = false;
-  lists_ = lists_.anew(stepping_.step);
+  lists_ = lists_.cleared(stepping_.step);
 }
 
 template <class Real>
@@ -547,7 +547,7 @@ Imbalance ListStepper<Real>::imbalance() const {
   const double loaded = surroundings_.loaded();
   sum.applied = std::max({newtons * pulled / 2, surroundings_.sums().applied + loaded, weight});
   sum.loaded = loaded + weight;
-  for (const Reaction& support : surroundings_.of_supports())
+  for (const Reaction& support : surroundings_.support_reactions())
     sum.applied = std::max({sum.applied, support.force.norm(), support.moment.norm() / extent_});
   return sum;
 }
@@ -570,7 +570,7 @@ void ListStepper<Real>::regroup() {
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   find_slots();
   groups_.begin(layout_.now, layout_.units());
-  lists_ = lists_.anew(stepping_.step);
+  lists_ = lists_.cleared(stepping_.step);
   stepped_ = false;
 }
 

@@ -185,8 +185,8 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
       pieces_[piece].reactions.assign(world_->obstacles.size(), {});
       const bool pins = pins_on_bones_ && first_[piece] < first_[piece + 1];
       pieces_[piece].of_pins.assign(pins ? body_->skeleton.size() : 0, {});
-      pieces_[piece].of_supports.assign(world_->supports.size(), {});
-      pieces_[piece].of_loads.assign(loads_.size(), {});
+      pieces_[piece].support_reactions.assign(world_->supports.size(), {});
+      pieces_[piece].load_reactions.assign(loads_.size(), {});
       find_touched(piece, lists.box_of(piece, units_));
     }
   });
@@ -231,7 +231,7 @@ void Surroundings<Real>::answer_of_pins(std::size_t k, const PinPose& at, const 
   if (pin.is_pin())
     add_reaction(pin, at, unheld, *pose_, piece.of_pins);
   else
-    add_answer(pin, at, -unheld, now_.supports, piece.of_supports);
+    add_answer(pin, at, -unheld, now_.supports, piece.support_reactions);
 }
 
 /// What the kernel finds on the touched blocks of a piece, and what becomes of it.
@@ -327,7 +327,7 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   sums.contact_energy += world.contact_energy;
   if (acts_in_space_) sums.applied += world.force().norm();
   if (pin != nullptr && pin->is_pin()) sums.applied += (others + world.force()).norm() / 2;
-  if (forces_ != nullptr) loads_.add(k, position, middle, piece.of_loads);
+  if (forces_ != nullptr) loads_.add(k, position, middle, piece.load_reactions);
   if (pin != nullptr)
     answer_of_pins(k, {position, velocity}, others + world.force(), middle, piece);
   if (forces_ == nullptr) return;
@@ -367,13 +367,13 @@ std::vector<Reaction> Surroundings<Real>::reactions_of_pins() const {
 }
 
 template <class Real>
-std::vector<Reaction> Surroundings<Real>::of_supports() const {
-  return sums_of(&Piece::of_supports, any_ ? world_->supports.size() : 0);
+std::vector<Reaction> Surroundings<Real>::support_reactions() const {
+  return sums_of(&Piece::support_reactions, any_ ? world_->supports.size() : 0);
 }
 
 template <class Real>
-std::vector<Reaction> Surroundings<Real>::of_loads() const {
-  return sums_of(&Piece::of_loads, loads_.size());
+std::vector<Reaction> Surroundings<Real>::load_reactions() const {
+  return sums_of(&Piece::load_reactions, loads_.size());
 }
 
 template class Surroundings<double>;

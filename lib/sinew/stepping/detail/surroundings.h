@@ -76,8 +76,8 @@ class Surroundings {
   double loaded() const { return loads_.sizes(); }
   std::vector<Reaction> reactions() const;          ///< of obstacles
   std::vector<Reaction> reactions_of_pins() const;  ///< on each bone; none where no pin is on one
-  std::vector<Reaction> of_supports() const;        ///< on the body, of each
-  std::vector<Reaction> of_loads() const;           ///< of the last probe
+  std::vector<Reaction> support_reactions() const;  ///< on the body, of each
+  std::vector<Reaction> load_reactions() const;     ///< of the last probe
   bool is_held(std::size_t k) const { return !pin_.empty() && pin_[k] != no_pin; }
 
  private:
@@ -86,7 +86,7 @@ class Surroundings {
     WorldSums sums;
     std::vector<Reaction> reactions;  ///< of obstacles
     std::vector<Reaction> of_pins;    ///< on bones
-    std::vector<Reaction> of_supports, of_loads;
+    std::vector<Reaction> support_reactions, load_reactions;
   };
 
   struct Rows;

@@ -139,8 +139,9 @@ std::string read_gltf_file(const fs::path& path) {
   constexpr std::uint64_t enough = 4096;  // bytes
   std::string head = read_head(path, enough);
   std::error_code vanished;
-  const std::uintmax_t told = fs::file_size(path, vanished);
-  const std::uint64_t size = vanished ? head.size() : std::max<std::uint64_t>(told, head.size());
+  const std::uintmax_t reported = fs::file_size(path, vanished);
+  const std::uint64_t size =
+      vanished ? head.size() : std::max<std::uint64_t>(reported, head.size());
   const bool binary = head.starts_with(glb_magic);
   const auto first = head.find_first_not_of(" \t\r\n");
   if (size == head.size() || (!binary && first != std::string::npos && head[first] != '{'))

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The members of a world as engines know it, for archive.h.
+#pragma once
+
+#include <sinew/engine/detail/archive.h>
+#include <sinew/world/world.h>
+
+namespace sinew {
+
+/// Makes it the alternative of that number.
+template <std::size_t k = 0, class... Forms>
+void choose(std::variant<Forms...>& value, std::size_t form) {
+  if constexpr (k == sizeof...(Forms))
+    throw bad_input("it is truncated or damaged", "start the run again");
+  else if (k == form)
+    value.template emplace<k>();
+  else
+    choose<k + 1>(value, form);
+}
+
+template <class Archive, class... Forms>
+void serialize(Archive& archive, std::variant<Forms...>& value) {
+  auto form = static_cast<std::uint8_t>(value.index());
+  archive(form);
+  if (form != value.index()) choose(value, form);
+  std::visit([&](auto& one) { serialize(archive, one); }, value);
+}
+
+template <class Archive>
+void serialize(Archive& archive, PlaneShape& plane) {
+  archive(plane.point);
+  archive(plane.normal);
+}
+
+template <class Archive>
+void serialize(Archive& archive, SphereShape& sphere) {
+  archive(sphere.center);
+  archive(sphere.radius);
+}
+
+template <class Archive>
+void serialize(Archive& archive, CapsuleShape& capsule) {
+  archive(capsule.a);
+  archive(capsule.b);
+  archive(capsule.radius);
+}
+
+template <class Archive>
+void serialize(Archive& archive, BoxShape& box) {
+  archive(box.center);
+  archive(box.half);
+  archive(box.rotation);
+}
+
+/// Refused before: see unknown_to_engines().
+template <class Archive>
+void serialize(Archive&, MeshShape&) {}
+template <class Archive>
+void serialize(Archive&, CustomForce&) {}
+
+template <class Archive>
+void serialize(Archive& archive, Region& region) {
+  archive(region.shape);
+  archive(region.falloff);
+}
+
+template <class Archive>
+void serialize(Archive& archive, KeyedValue& keys) {
+  archive(keys.times);
+  archive(keys.values);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Obstacle& obstacle) {
+  archive(obstacle.name);
+  archive(obstacle.shape);
+  for (double* value :
+       {&obstacle.stiffness, &obstacle.damping, &obstacle.friction, &obstacle.stick})
+    archive(*value);
+  archive(obstacle.bone);
+}
+
+template <class Archive>
+void serialize(Archive& archive, UniformAcceleration& form) {
+  archive(form.acceleration);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ForceDensity& form) {
+  archive(form.density);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Attraction& form) {
+  archive(form.point);
+  archive(form.acceleration);
+  archive(form.core);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Swirl& form) {
+  archive(form.point);
+  archive(form.axis);
+  archive(form.acceleration);
+  archive(form.core);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ForceField& field) {
+  archive(field.name);
+  archive(field.form);
+  archive(field.region);
+  archive(field.scale);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Pinned& pin) {
+  archive(pin.particle);
+  archive(pin.bone);
+  for (std::int32_t& support : pin.support) archive(support);
+  archive(pin.along);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Support& support) {
+  archive(support.name);
+  for (bool& axis : support.holds) archive(axis);
+  archive(support.pivot);
+  archive(support.along);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Load& load) {
+  archive(load.name);
+  archive(load.scale);
+  archive(load.particles);
+  archive(load.share);
+  archive(load.force);
+  archive(load.pivot);
+}
+
+template <class Archive>
+void serialize(Archive& archive, World& world) {
+  archive(world.obstacles);
+  archive(world.drag.rate);
+  archive(world.drag.velocity);
+  archive(world.fields);
+  archive(world.pins);
+  archive(world.supports);
+  archive(world.loads);
+}
+
+}  // namespace sinew
