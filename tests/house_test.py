@@ -78,6 +78,8 @@ GIVEN_UP = {
     r"\b[Ff]ilm_|\bFilm": "playback",
     r"\bwide list|\bnarrow list": "outer or inner list", r"asked of CGAL|asks CGAL": "checked against CGAL",
     r"whole or not at all": "atomically", r"\b(Vec3|double|Corners|Floats) ways?\b": "path, displacement or direction",
+    r"//+<? (Of|By|That|Those|As|From)\b": "a comment that begins with a noun or a verb",
+    r"\bmost_(?!common\b)\w+|\bleast_\w+": "max_ or min_",
 }
 
 
