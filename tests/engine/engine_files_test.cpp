@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include <sinew/core/file.h>
-#include <sinew/engine/detail/walks.h>
+#include <sinew/engine/detail/serialize.h>
 #include <sinew/engine/engine_files.h>
 #include <sinew/engine/engine_talk.h>
 #include <sinew/engine/engine_world.h>
