@@ -11,8 +11,8 @@ int main(int argc, char** argv) {
     sinew::Prepared prepared = sinew::prepare({scene});
 
     sinew::World world;
-    const auto wind = [](const sinew::Vec3& x, const sinew::ParticleInfo& grain) {
-      return sinew::Vec3(2 * x.z() * grain.mass, 0, 0);  // N, for 2 m/s^2 per meter of height
+    const auto wind = [](const sinew::Vec3& x, const sinew::ParticleInfo& particle) {
+      return sinew::Vec3(2 * x.z() * particle.mass, 0, 0);  // N, for 2 m/s^2 per meter of height
     };
     world.fields.push_back({"wind", sinew::CustomForce{wind}, {}, {}});
     prepared.body.world = std::make_shared<const sinew::World>(world);

@@ -117,7 +117,7 @@ class Stepped {
   }
   /// An array of the particles, as output.arrays names it, and its components.
   std::pair<std::vector<double>, int> measured(const std::string& name) {
-    refuse_while_stepping();
+    const Busy busy(stepping_);  // other threads may run meanwhile
     const WithoutGil free;
     if (!meter_) {
       if (faces_.empty())

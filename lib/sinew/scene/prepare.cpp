@@ -264,18 +264,7 @@ Prepared prepare(Scene scene) {
   return prepared;
 }
 
-Simulation start(const Prepared& prepared) {
-  Prepared copy;
-  copy.settings = prepared.settings;
-  copy.filled.particles = prepared.filled.particles;
-  copy.body = prepared.body;
-  copy.motion = prepared.motion;
-  copy.steps = prepared.steps;
-  copy.plan = prepared.plan;
-  copy.load_steps = prepared.load_steps;
-  copy.dynamic_groups = prepared.dynamic_groups;
-  return start(std::move(copy));
-}
+Simulation start(const Prepared& prepared) { return start(Prepared(prepared)); }
 
 Simulation start(Prepared&& prepared) {
   Simulation simulation(std::move(prepared.body), std::move(prepared.motion),

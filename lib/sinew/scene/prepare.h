@@ -52,8 +52,8 @@ struct Scene {
   Settings settings;
   /// Particles at rest, in place of filling the mesh; what they are of may be another mesh.
   std::optional<BodyFile> filled = {};
-  /// Reads the surface of the body, which pictures, loads and pressures need; all that is not
-  /// `filled` has one.
+  /// Whether the surface of the body is read, which pictures, loads and pressures need; always
+  /// where its mesh is filled.
   bool with_surface = true;
 };
 
