@@ -7,13 +7,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 tools/install_packages.sh build test
 tests/tools/get_paraview_python.sh build/paraview-python
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=ON >/dev/null
-# Not by -Werror: with other options than those of tools/demo.sh, all that it built would be built again. The log is
-# of both; what a warning is about is built again next time, so that it is seen again.
-cmake --build build | tee -a build/build.log
+# Not by -Werror: with other options than those of tools/demo.sh, all that it built would be built again. After a
+# warning all is built again, so that it is seen until it is gone.
+cmake --build build | tee build/build.log
 if grep ' warning: ' build/build.log >&2; then
   echo "tests/run.sh: the compiler warns of these lines" >&2
   cmake --build build --target clean
-  rm build/build.log
   exit 1
 fi
 ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@"

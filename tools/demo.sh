@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 tools/install_packages.sh build
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=OFF >/dev/null
-cmake --build build | tee -a build/build.log
+cmake --build build
 build/bin/sinew run --force configs/box_bend.yaml
 
 cat <<END
