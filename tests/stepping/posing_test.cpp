@@ -99,7 +99,7 @@ TEST(ParticleMeter, SeesTheStrainOfThePresentMoment) {
   Triangles skin;
   skin.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   skin.faces = {{0, 1, 2}};
-  const ParticleMeter meter(prepared.body, skin);
+  ParticleMeter meter(prepared.body, skin);
   const double e = 0.01;
   for (std::size_t i = 0; i < rest.size(); ++i)
     prepared.filled.particles.set_position(i, Vec3(1, 1, 1 + e).cwiseProduct(rest[i]));

@@ -52,8 +52,11 @@ FrameState ParticleMeter::now(Simulation& simulation) const {
   return state;
 }
 
-std::vector<Column> ParticleMeter::arrays(Simulation& simulation, std::string_view words) const {
-  return particle_arrays(rest_, now(simulation), defined_arrays(rest_, at_rest(), words));
+std::vector<Column> ParticleMeter::arrays(Simulation& simulation, std::string_view words) {
+  auto asked = asked_.find(words);
+  if (asked == asked_.end())
+    asked = asked_.emplace(words, defined_arrays(rest_, at_rest(), words)).first;
+  return particle_arrays(rest_, now(simulation), asked->second);
 }
 
 }  // namespace sinew

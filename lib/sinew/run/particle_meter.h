@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Strain, stress and the other arrays of a body's particles, while it is stepped.
 //
-//     const ParticleMeter meter(prepared.body, prepared.surface.triangles);
+//     ParticleMeter meter(prepared.body, prepared.surface.triangles);
 //     const std::vector<Column> found = meter.arrays(simulation, "stress, strain");
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,11 +36,12 @@ class ParticleMeter {
   void take_forces(Simulation& simulation, double time, FrameState& state) const;
   /// The arrays that are named, in words as output.arrays has them, at the present moment: by id,
   /// in the units of requestable_arrays(). Throws bad input for one that the body has not.
-  std::vector<Column> arrays(Simulation& simulation, std::string_view words) const;
+  std::vector<Column> arrays(Simulation& simulation, std::string_view words);
 
  private:
   std::shared_ptr<const World> world_;
   RestBody rest_;
+  std::map<std::string, std::vector<std::string_view>, std::less<>> asked_;  ///< names, by words
 };
 
 }  // namespace sinew
