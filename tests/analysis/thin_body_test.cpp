@@ -76,9 +76,9 @@ TEST(ThinBody, WithoutForcesHasTheLimitOfThePacking) {
 }
 
 TEST(ThinBody, HasNoParticleUnderTwoLayers) {
-  EXPECT_TRUE(is_thin(test::fcc_box(4, 11, 11, r), r));
-  EXPECT_FALSE(is_thin(test::fcc_box(5, 11, 11, r), r));
-  EXPECT_FALSE(is_thin({}, r));
+  EXPECT_TRUE(is_thin(test::nearest(test::fcc_box(4, 11, 11, r), r)));
+  EXPECT_FALSE(is_thin(test::nearest(test::fcc_box(5, 11, 11, r), r)));
+  EXPECT_FALSE(is_thin({}));
 }
 
 TEST(ThinBody, LeavesTheClosedFormsToThickBodies) {

@@ -227,7 +227,7 @@ TEST(Bonds, BreakBeyondTheirStrainAndReportTheEnergy) {
 /// The energy of all bonds across a plane when they break, by counting them, over its area.
 double energy_of_crack(const Material& material, const Vec3& normal, double radius) {
   const Points rest = test::fcc_ball(25, radius);
-  const SolidBonds bonds = make_bonds(rest, material);
+  const SolidBonds bonds = make_bonds(rest, test::neighbors(rest, material).all(), material);
   const double width = 15 * radius;  // of a disk far from the surface
   double sum = 0;
   for (const Bonds* some : {&bonds.nearest, &bonds.second})

@@ -39,8 +39,9 @@ std::vector<std::int32_t> numbers(std::size_t particles) {
 TEST(VolumeWeights, SumToTheBody) {
   const Points rest = test::fcc_box(13, 13, 13, r);
   const auto particles = static_cast<double>(rest.size());
-  EXPECT_LT(sum(own_volume_weights(rest, r)), 0.72 * particles);
-  EXPECT_NEAR(sum(volume_weights(rest, material_of(0.4), {})), particles, 0.025 * particles);
+  EXPECT_LT(sum(own_volume_weights(rest, test::nearest(rest, r), r)), 0.72 * particles);
+  EXPECT_NEAR(sum(volume_weights(rest, test::nearest(rest, r), material_of(0.4), {})), particles,
+              0.025 * particles);
 }
 
 TEST(VolumeWeights, AreOneFarFromSurfacesAndNowhereMoreThanTheMost) {
@@ -50,7 +51,7 @@ TEST(VolumeWeights, AreOneFarFromSurfacesAndNowhereMoreThanTheMost) {
     const double most = max_volume_weight(material);
     EXPECT_GT(most, 1.1);
     EXPECT_LE(most, 2);
-    const std::vector<double> weights = volume_weights(rest, material, {});
+    const std::vector<double> weights = volume_weights(rest, test::nearest(rest, r), material, {});
     EXPECT_DOUBLE_EQ(*std::max_element(weights.begin(), weights.end()), most);
     const Vec3 middle(0, 0, 10.5 * half_plane_spacing(r));
     for (std::size_t i = 0; i < rest.size(); ++i)
@@ -66,7 +67,7 @@ TEST(VolumeWeights, FollowShares) {
   std::vector<double> share(rest.size(), 1);
   for (std::size_t i = 0; i < rest.size(); ++i)
     if (rest[i].z() < half_plane_spacing(r)) share[i] = 0.5;
-  const std::vector<double> less = volume_weights(rest, material, share);
+  const std::vector<double> less = volume_weights(rest, test::nearest(rest, r), material, share);
   EXPECT_LT(sum(less), sum(share) * (1 + 1e-12));
   EXPECT_GT(sum(less), 0.97 * sum(share));
 }
@@ -89,9 +90,9 @@ TEST(VolumeWeights, GiveAStrainedBodyTheEnergyOfAContinuum) {
   pulled.diagonal() = 1e-6 * Vec3(1, -0.2, 0.3);
   for (const double ratio : {0.3, 0.4}) {
     const Material material = material_of(ratio);
-    BondFactors factors = bond_factors(rest, material, {});
+    BondFactors factors = bond_factors(rest, test::neighbors(rest, material), material, {});
     EXPECT_NEAR(energy_share(ratio, pulled, factors, material, rest), 1, 0.02);
-    factors.volume_weight = own_volume_weights(rest, r);
+    factors.volume_weight = own_volume_weights(rest, test::nearest(rest, r), r);
     EXPECT_LT(energy_share(ratio, pulled, factors, material, rest), 0.96);
   }
 }
@@ -109,7 +110,7 @@ TEST(VolumeWeights, KeepTheStepLimitOfTheBody) {
       body.material = material_of(ratio);
       body.material.damping = 0;
       body.binding.first.assign(rest.size() + 1, 0);
-      body.factors = bond_factors(rest, body.material, {});
+      body.factors = bond_factors(rest, *neighbors_of(body), body.material, {});
       const double limit = step_limit(Integrator::symplectic_euler, body);
       EXPECT_LT(limit, power_step_limit(body) / 0.99 * 1.002) << ratio << ' ' << angle;
       EXPECT_GT(limit, 0.85 * power_step_limit(body));

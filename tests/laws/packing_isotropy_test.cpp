@@ -60,8 +60,9 @@ class Equilibrium {
     share_.resize(rest_.size(), 1);
     const Material material = material_of(settings, filling.particles);
     young_modulus_ = settings.material.young_modulus;
-    bonds_ = make_bonds(rest_, material, filling.particles.id,
-                        bond_factors(rest_, material, filling.share));
+    const RestNeighbors near = rest_neighbors(rest_, material.pair.r, material.bond.second > 0);
+    bonds_ = make_bonds(rest_, near.all(), material, filling.particles.id,
+                        bond_factors(rest_, near, material, filling.share));
     const Box box = bounds(rest_);
     const double half = box.sizes().minCoeff() / 2;
     volume_ = volume_per_particle(filling.particles.radius);

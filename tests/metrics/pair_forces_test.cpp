@@ -77,8 +77,9 @@ TEST(PairForces, VolumesOfSeveredParticlesAreNotKept) {
 TEST(PairForces, AreOverTheVolumeThatTheBondsMakeStiff) {
   RestInput input = changing();
   input.law.second = [](double d, double rest) { return (rest - d) / 4; };
-  input.law.second_range = 3.1 * r;
-  input.law.factor = [](std::uint32_t, std::uint32_t) { return 0.5; };
+  input.law.local = [] {
+    return LocalStiffness{[](std::uint32_t, std::uint32_t) { return 0.5; }, {}};
+  };
   const RestBody body = rest_body(input);
   FrameState state = moved(body, scaled(1.1));
   state.bond_rest = first_bond_rest(body);

@@ -80,7 +80,10 @@ inline RestInput box_input() {
 /// Particles keep their volumes, with their weights as simulations find them (Pa).
 inline void keep_volumes(RestInput& input, double stiffness) {
   input.law.volume_stiffness = stiffness;
-  input.law.volume_weight = own_volume_weights(input.positions, input.radius);
+  input.law.local = [rest = input.positions, r = input.radius] {
+    return LocalStiffness{
+        {}, own_volume_weights(rest, neighbors_within(rest, rest_neighbor_range(r)), r)};
+  };
 }
 
 inline Points mapped(Points points, const Map& map) {

@@ -28,6 +28,16 @@ inline Points fcc_box(int nx, int ny, int nz, double r) {
   return points;
 }
 
+/// Nearest neighbors of particles of radius r.
+inline NeighborLists nearest(const Points& rest, double r) {
+  return rest_neighbors(rest, r, false).nearest;
+}
+
+/// The neighbors that count for a material.
+inline RestNeighbors neighbors(const Points& rest, const Material& material) {
+  return rest_neighbors(rest, material.pair.r, material.bond.second > 0);
+}
+
 /// Sites within `radius_in_r` radii of the origin, of FCC or HCP (layers A B A B along z).
 inline Points fcc_ball(double radius_in_r, double r) {
   const int n = 2 * static_cast<int>(radius_in_r) + 1;

@@ -28,7 +28,8 @@ constexpr double floppy = 1e-3;  // share of a smooth mode's w^2 below which one
 
 /// Returns the indices of the particles in the largest part that hangs together.
 std::vector<std::size_t> largest_part(const Body& body) {
-  const NeighborLists near = neighbors_within(body.rest, rest_neighbor_range(body.material.pair.r));
+  const SharedNeighbors shared = neighbors_of(body);
+  const NeighborLists& near = shared->nearest;
   UnionFind sets(body.rest.size());
   for (std::size_t i = 0; i < body.rest.size(); ++i)
     for (const std::uint32_t j : near.of(i))
@@ -52,8 +53,9 @@ Body part_of(const Body& body, const std::vector<std::size_t>& places) {
     if (!body.density.empty()) part.density.push_back(body.density[i]);
     if (!body.local.volume.empty()) part.local.volume.push_back(body.local.volume[i]);
   }
-  part.factors =
-      bond_factors(part.rest, part.material, part.share, part.stiffness, part.local.volume);
+  part.neighbors = neighbors_of(part);
+  part.factors = bond_factors(part.rest, *part.neighbors, part.material, part.share, part.stiffness,
+                              part.local.volume);
   return part;
 }
 

@@ -29,12 +29,10 @@ struct PartNumbers {
 PartNumbers parts_of(const Body& body) {
   const std::size_t n = body.rest.size();
   UnionFind joined(n);
-  const Material& material = body.material;
-  const double range = material.bond.second > 0 ? second_neighbor_range * material.pair.r
-                                                : rest_neighbor_range(material.pair.r);
-  const NeighborLists near = neighbors_within(body.rest, range);
+  const SharedNeighbors near = neighbors_of(body);
   for (std::size_t i = 0; i < n; ++i)
-    for (const std::uint32_t j : near.of(i)) joined.join(static_cast<int>(i), static_cast<int>(j));
+    for (const std::uint32_t j : near->all().of(i))
+      joined.join(static_cast<int>(i), static_cast<int>(j));
   PartNumbers parts;
   parts.of.resize(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -197,14 +197,13 @@ Motions random_motion(Eigen::Index particles) {
 
 }  // namespace
 
-bool is_thin(const Points& rest, double radius) {
-  const NeighborLists near = neighbors_within(rest, rest_neighbor_range(radius));
+bool is_thin(const NeighborLists& near) {
   const auto covered = [&](std::size_t i) { return near.of(i).size() >= neighbors_inside; };
-  for (std::size_t i = 0; i < rest.size(); ++i) {
+  for (std::size_t i = 0; i < near.size(); ++i) {
     const auto around = near.of(i);
     if (covered(i) && std::all_of(around.begin(), around.end(), covered)) return false;
   }
-  return !rest.empty();
+  return near.size() > 0;
 }
 
 double power_step_limit(const Body& body, const WorldLoad& world) {
@@ -239,7 +238,7 @@ double step_limit(Integrator integrator, const Body& body, const WorldLoad& worl
   const bool linear =
       body.material.model != MaterialModel::paper || std::abs(pair.lambda() - 1) < 1e-3;
   if (integrator == Integrator::explicit_euler || !linear || body.rest.size() > max_tried ||
-      !is_thin(body.rest, pair.r))
+      !is_thin(neighbors_of(body)->nearest))
     return limit;
   return power_step_limit(body, world);
 }

@@ -52,7 +52,7 @@ StepChoice choose_step(std::optional<double> step, double factor, double limit, 
 // more strongly, and needs a shorter one.
 
 /// Whether no particle has two layers of others around it; false for no particles.
-bool is_thin(const Points& rest, double radius);
+bool is_thin(const NeighborLists& nearest);
 
 /// The largest step of symplectic Euler and velocity Verlet, s: small motions about rest, with
 /// forces -K u - D v, grow with alternating sign once an eigenvalue of dt^2 / 4 K + dt / 2 D

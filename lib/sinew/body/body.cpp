@@ -5,6 +5,13 @@
 
 namespace sinew {
 
+SharedNeighbors neighbors_of(const Body& body) {
+  if (body.neighbors) return body.neighbors;
+  const Material& material = body.material;
+  return std::make_shared<const RestNeighbors>(
+      rest_neighbors(body.rest, material.pair.r, material.bond.second > 0));
+}
+
 double total_mass(const Body& body, double common) {
   if (body.density.empty()) return static_cast<double>(body.rest.size()) * common;
   double sum = 0;

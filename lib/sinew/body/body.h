@@ -12,6 +12,7 @@
 #include <sinew/body/bond_factors.h>
 #include <sinew/body/bone_force.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/rest_neighbors.h>
 #include <sinew/material/local_strength.h>
 #include <sinew/material/material.h>
 #include <sinew/rig/binding.h>
@@ -37,9 +38,15 @@ struct Body {
   std::vector<std::int32_t> material_number = {};
   LocalStrength local = {};  ///< of the materials of its parts
   BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
+  /// Neighbors at rest, which whoever makes a body may leave with it; none: not there, or released
+  /// before stepping, which needs them no more.
+  SharedNeighbors neighbors = {};
   std::shared_ptr<const World> world = {};        ///< none: nothing surrounds it
   std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
 };
+
+/// The neighbors that a body has, or else those of a search.
+SharedNeighbors neighbors_of(const Body& body);
 
 /// Returns the mass of particle `id`, kg; `common`: that of one with the material's density.
 inline double mass_of(const Body& body, std::size_t id, double common) {

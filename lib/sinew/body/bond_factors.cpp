@@ -64,14 +64,14 @@ Tensor inside() {
 /// Bonds of the particles, and what those at the surface ask for.
 class SurfaceBonds {
  public:
-  SurfaceBonds(const Points& rest, const Material& material, const std::vector<double>& share,
-               const std::vector<double>& stiffness)
+  SurfaceBonds(const Points& rest, const RestNeighbors& near, const Material& material,
+               const std::vector<double>& share, const std::vector<double>& stiffness)
       : rest_(rest),
         share_(share),
         stiffness_(stiffness),
         r_(material.pair.r),
         second_(material.packing().second),
-        near_(neighbors_within(rest, second_neighbor_range * r_)) {}
+        near_(near.all()) {}
 
   BondFactors factors() {
     find_asking();
@@ -199,7 +199,7 @@ class SurfaceBonds {
   const Points& rest_;
   const std::vector<double>&share_, &stiffness_;
   double r_, second_;
-  NeighborLists near_;
+  const NeighborLists& near_;
   std::vector<Reason> asks_;
   std::vector<std::uint32_t> first_;  ///< by particle, its first in asked_
   std::vector<double> asked_;         ///< of those that ask
@@ -229,14 +229,15 @@ BondFactors::Row BondFactors::of(std::uint32_t id) const {
   return {{neighbor.data() + first[n], bonds}, {factor.data() + first[n], bonds}};
 }
 
-BondFactors bond_factors(const Points& rest, const Material& material,
+BondFactors bond_factors(const Points& rest, const RestNeighbors& near, const Material& material,
                          const std::vector<double>& share, const std::vector<double>& stiffness,
                          const std::vector<double>& volume) {
   BondFactors factors;
-  if (material.bond.second > 0) factors = SurfaceBonds(rest, material, share, stiffness).factors();
+  if (material.bond.second > 0)
+    factors = SurfaceBonds(rest, near, material, share, stiffness).factors();
   const Material keeping = with_max_volume_stiffness(material, stiffness, volume);
   if (keeping.volume_stiffness <= 0) return factors;
-  factors.volume_weight = volume_weights(rest, keeping, share);
+  factors.volume_weight = volume_weights(rest, near.nearest, keeping, share);
   const double most = *std::max_element(factors.volume_weight.begin(), factors.volume_weight.end());
   PackingStiffness packing = keeping.packing();
   packing.volume *= most;

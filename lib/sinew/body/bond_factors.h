@@ -5,7 +5,7 @@
 // all 18 are, times the particle's share of the body: the sum of k l^2 n n n n over its bonds is
 // that of the isotropic packing. A bond has the mean of what its two particles ask for.
 //
-//     body.factors = bond_factors(body.rest, body.material, body.share);
+//     body.factors = bond_factors(body.rest, *neighbors_of(body), body.material, body.share);
 //     const double factor = body.factors.of(id).at(neighbor);
 #pragma once
 
@@ -13,13 +13,10 @@
 #include <span>
 #include <vector>
 
-#include <sinew/core/cell_grid.h>
+#include <sinew/core/rest_neighbors.h>
 #include <sinew/material/material.h>
 
 namespace sinew {
-
-/// Neighbors at rest within this are bonded where second neighbors are.
-inline constexpr double second_neighbor_range = 3.1;  // in radii: the third are at 3.46
 
 /// BondFactors::stiffest of surfaces in any direction of the packing.
 inline constexpr double stiffest_of_rough_surfaces = 7.2;
@@ -51,12 +48,12 @@ struct BondFactors {
   Row of(std::uint32_t id) const;
 };
 
-/// Finds the factors of particles at `rest` (m). `share`: the volume of the body around each
-/// particle over that of one inside; `stiffness`: that of the material there over the body's, of
-/// which a bond has the harmonic mean, as springs in series; empty: 1 each. `volume`: K_v there,
-/// Pa; empty: the material's. In parallel, the same for any number of threads. None without bonds
-/// of second neighbors, but for the weights of volumes that are kept.
-BondFactors bond_factors(const Points& rest, const Material& material,
+/// Finds the factors of particles at `rest` (m) with the neighbors `near`. `share`: the volume of
+/// the body around each particle over that of one inside; `stiffness`: that of the material there
+/// over the body's, of which a bond has the harmonic mean, as springs in series; empty: 1 each.
+/// `volume`: K_v there, Pa; empty: the material's. In parallel, the same for any number of threads.
+/// None without bonds of second neighbors, but for the weights of volumes that are kept.
+BondFactors bond_factors(const Points& rest, const RestNeighbors& near, const Material& material,
                          const std::vector<double>& share,
                          const std::vector<double>& stiffness = {},
                          const std::vector<double>& volume = {});

@@ -73,11 +73,10 @@ bool Bonds::bonded(std::size_t i, std::uint32_t j) const {
   return entry != none && whole(entry);
 }
 
-SolidBonds make_bonds(const Points& rest, const Material& material,
+SolidBonds make_bonds(const Points& rest, const NeighborLists& near, const Material& material,
                       std::span<const std::int32_t> id, const BondFactors& factors) {
   const double r = material.pair.r, between = rest_neighbor_range(r);
   const double far = material.bond.second > 0 ? second_neighbor_range * r : between;
-  const NeighborLists near = neighbors_within(rest, far);
   SolidBonds bonds = {bonds_between(rest, near, 0, between, material.bond.stiffness),
                       bonds_between(rest, near, between, far, material.bond.second)};
   apply(factors, id, bonds.nearest);
@@ -126,7 +125,9 @@ Solid::Solid(const Material& material, Points rest, std::span<const std::int32_t
     : material_(material),
       law_(&law_of(material)),
       rest_(std::move(rest)),
-      bonds_(make_bonds(rest_, material, id, factors)),
+      bonds_(make_bonds(rest_,
+                        rest_neighbors(rest_, material.pair.r, material.bond.second > 0).all(),
+                        material, id, factors)),
       branches_(material.bond, bonds_.nearest.neighbors.neighbor.size(),
                 bonds_.second.neighbors.neighbor.size()),
       local_(in_order(local, id)) {

@@ -60,9 +60,10 @@ struct SolidBonds {
   Bonds nearest, second;
 };
 
-/// Between all particles at `rest` (m, in the order of the particles) that are neighbors there.
+/// Between all particles at `rest` (m) that are neighbors there (RestNeighbors::all), both in the
+/// order of the particles.
 /// `id` and `factors` of the particles; none: the material's stiffness throughout.
-SolidBonds make_bonds(const Points& rest, const Material& material,
+SolidBonds make_bonds(const Points& rest, const NeighborLists& near, const Material& material,
                       std::span<const std::int32_t> id = {}, const BondFactors& factors = {});
 
 /// A bond seen from one of its particles.

@@ -20,23 +20,13 @@ constexpr double surrounded = 1 - 1e-6;  // where all neighbors are, but for rou
 // iteration on cubes and turned ones, where no particle takes over from others.
 constexpr double surface_over_packing = 1.15;
 
-std::vector<double> own_weights(const Points& rest, const NeighborLists& near, double radius) {
-  std::vector<double> weights(rest.size());
-  for_each_particle(rest.size(), [&](std::size_t i) {
-    Mat3 A = Mat3::Zero();
-    for (const std::uint32_t j : near.of(i))
-      A += (rest[j] - rest[i]) * (rest[j] - rest[i]).transpose();
-    weights[i] = volume_weight(A, radius);
-  });
-  return weights;
-}
-
 /// The weights while they spread.
 class Spreading {
  public:
-  Spreading(const Points& rest, double radius, const std::vector<double>& share)
-      : near_(neighbors_within(rest, rest_neighbor_range(radius))),
-        own_(own_weights(rest, near_, radius)),
+  Spreading(const Points& rest, const NeighborLists& nearest, double radius,
+            const std::vector<double>& share)
+      : near_(nearest),
+        own_(own_volume_weights(rest, near_, radius)),
         weight_(own_),
         lacks_(rest.size()),
         askers_(rest.size()),
@@ -68,7 +58,7 @@ class Spreading {
   std::vector<double>& weights() { return weight_; }
 
  private:
-  NeighborLists near_;
+  const NeighborLists& near_;
   std::vector<double> own_, weight_, lacks_;
   std::vector<double> askers_;  ///< sum of the own weights around each
   std::vector<double> next_;
@@ -83,8 +73,16 @@ double volume_weight(const Mat3& A, double radius) {
   return share < 1e-9 ? 0 : share * share;
 }
 
-std::vector<double> own_volume_weights(const Points& rest, double radius) {
-  return own_weights(rest, neighbors_within(rest, rest_neighbor_range(radius)), radius);
+std::vector<double> own_volume_weights(const Points& rest, const NeighborLists& nearest,
+                                       double radius) {
+  std::vector<double> weights(rest.size());
+  for_each_particle(rest.size(), [&](std::size_t i) {
+    Mat3 A = Mat3::Zero();
+    for (const std::uint32_t j : nearest.of(i))
+      A += (rest[j] - rest[i]) * (rest[j] - rest[i]).transpose();
+    weights[i] = volume_weight(A, radius);
+  });
+  return weights;
 }
 
 double max_volume_weight(const Material& material) {
@@ -97,9 +95,9 @@ double max_volume_weight(const Material& material) {
                     largest_weight);
 }
 
-std::vector<double> volume_weights(const Points& rest, const Material& material,
-                                   const std::vector<double>& share) {
-  Spreading spreading(rest, material.pair.r, share);
+std::vector<double> volume_weights(const Points& rest, const NeighborLists& nearest,
+                                   const Material& material, const std::vector<double>& share) {
+  Spreading spreading(rest, nearest, material.pair.r, share);
   if (material.bond.second > 0)
     for (int pass = 0; pass < passes; ++pass) spreading.spread(max_volume_weight(material));
   return std::move(spreading.weights());

@@ -11,11 +11,12 @@
 //   the same, where none takes over        0.894, 0.946, 0.965
 //   bonds alone, of a ratio of 0.25        0.950, 0.979, 0.988
 //
-//     const std::vector<double> weights = volume_weights(rest, material, share);
+//     const std::vector<double> weights = volume_weights(rest, near.nearest, material, share);
 #pragma once
 
 #include <vector>
 
+#include <sinew/core/cell_grid.h>
 #include <sinew/core/particles.h>
 #include <sinew/material/material.h>
 
@@ -24,16 +25,17 @@ namespace sinew {
 /// w of particles of `radius` (m) with that A (m^2), before any takes over from others.
 double volume_weight(const Mat3& A, double radius);
 
-/// Returns w of each particle at `rest` (m).
-std::vector<double> own_volume_weights(const Points& rest, double radius);
+/// Returns w of each particle at `rest` (m) with its nearest neighbors.
+std::vector<double> own_volume_weights(const Points& rest, const NeighborLists& nearest,
+                                       double radius);
 
 /// No particle has more than this many times the weight of one inside: 2, or with which waves take
 /// as short a step as modes at surfaces do anyway.
 double max_volume_weight(const Material& material);
 
-/// Returns the weights of particles at `rest` (m), with `share` as in bond_factors(). Where second
-/// neighbors have no bonds, none takes over.
-std::vector<double> volume_weights(const Points& rest, const Material& material,
-                                   const std::vector<double>& share);
+/// Returns the weights of particles at `rest` (m) with their nearest neighbors, and `share` as in
+/// bond_factors(). Where second neighbors have no bonds, none takes over.
+std::vector<double> volume_weights(const Points& rest, const NeighborLists& nearest,
+                                   const Material& material, const std::vector<double>& share);
 
 }  // namespace sinew

@@ -41,8 +41,13 @@ Mat3 spread_of(const RestShape& rest, std::size_t i) {
 }  // namespace
 
 RestShape rest_shape(Points points, double range) {
+  NeighborLists near = neighbors_within(points, range);
+  return rest_shape(std::move(points), std::move(near));
+}
+
+RestShape rest_shape(Points points, NeighborLists neighbors) {
   RestShape rest;
-  rest.neighbors = neighbors_within(points, range);
+  rest.neighbors = std::move(neighbors);
   rest.points = std::move(points);
   rest.inverse.resize(rest.points.size());
   parallel_for(rest.points.size(), points_at_a_time, [&](std::size_t begin, std::size_t end) {

@@ -21,7 +21,9 @@ struct RestShape {
   bool defined(std::size_t i) const { return !inverse[i].isZero(0); }
 };
 
-/// The rest shape of `points` (m) with pairs closer than `range` (m) as neighbors. In parallel.
+/// The rest shape of `points` (m) with their neighbors. In parallel.
+RestShape rest_shape(Points points, NeighborLists neighbors);
+/// The same with pairs closer than `range` (m) as neighbors.
 RestShape rest_shape(Points points, double range);
 
 /// sum dx dX^T over the neighbors of point i (m^2): the only information where F is undefined.

@@ -31,14 +31,15 @@ std::size_t max_in_a_row(const NeighborLists& lists) {
 class Rows {
  public:
   explicit Rows(const Body& body) : body_(body) {
+    const SharedNeighbors near = neighbors_of(body);
     if (law_of(body.material).has_memory) {
       std::vector<std::int32_t> ids(body.rest.size());
       for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
-      bonds_ = make_bonds(body.rest, body.material, ids, body.factors);
+      bonds_ = make_bonds(body.rest, near->all(), body.material, ids, body.factors);
     }
     if (body.material.volume_stiffness > 0)
       volume_weights_ = body.factors.volume_weight.empty()
-                            ? own_volume_weights(body.rest, body.material.pair.r)
+                            ? own_volume_weights(body.rest, near->nearest, body.material.pair.r)
                             : body.factors.volume_weight;
     for (std::size_t i = 0; i < body.rest.size(); ++i)
       shape_.bones = std::max(shape_.bones, static_cast<std::int32_t>(body.binding.of(i).size()));

@@ -16,7 +16,8 @@ constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 /// What each learns from its neighbors is which of the particles at the surface is nearest.
 void free_near_surface(const Body& body, double distance, std::vector<std::uint8_t>& free) {
   const double r = body.material.pair.r;
-  const NeighborLists near = neighbors_within(body.rest, rest_neighbor_range(r));
+  const SharedNeighbors shared = neighbors_of(body);
+  const NeighborLists& near = shared->nearest;
   std::vector<std::uint32_t> nearest(body.rest.size(), nobody), known;
   for (std::uint32_t i = 0; i < nearest.size(); ++i)
     if (near.of(i).size() < max_neighbors_at_rest) nearest[i] = i, known.push_back(i);

@@ -46,10 +46,10 @@ class LayerFinder {
       : body_(body),
         group_(group),
         r_(body.material.pair.r),
-        range_(holds_seconds(body) ? second_neighbor_range * r_ : rest_neighbor_range(r_)),
         whole_(holds_seconds(body) ? near_sites : nearest_sites),
         by_sites_(supports_cubic_groups(body)),
-        near_(neighbors_within(body.rest, range_)) {
+        shared_(neighbors_of(body)),
+        near_(holds_seconds(body) ? shared_->all() : shared_->nearest) {
     if (has_affine_forces(body)) affine_.emplace(body);
   }
 
@@ -172,10 +172,11 @@ class LayerFinder {
 
   const Body& body_;
   const std::vector<std::int32_t>& group_;
-  double r_, range_;
+  double r_;
   std::size_t whole_;
   bool by_sites_;  ///< cubic groups know bonds by their sites
-  NeighborLists near_;
+  SharedNeighbors shared_;
+  const NeighborLists& near_;
   std::optional<AffineForces> affine_;
 };
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include <sinew/body/grouping.h>
+#include <sinew/core/rest_neighbors.h>
 
 namespace sinew {
 
@@ -57,6 +58,7 @@ struct DynamicOptions {
   /// In radii. What joins a group is moved by less (root mean square, half as much where it was
   /// free); what leaves it would be, by the forces that hold it there.
   double tolerance = 0.15;
+  SharedNeighbors near = {};  ///< of the body, which may have released its own
 };
 
 /// The stretches of a group between which forces act between those particles alone that the layers

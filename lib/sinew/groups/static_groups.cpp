@@ -50,7 +50,8 @@ Grouping static_groups(const Body& body, const std::vector<bool>& moves, const G
         if (const int part = parts.of(i); part >= 0 && group[i] < 0) group[i] = first + part;
     });
   };
-  const NeighborLists near = neighbors_within(body.rest, rest_neighbor_range(body.material.pair.r));
+  const SharedNeighbors shared = neighbors_of(body);
+  const NeighborLists& near = shared->nearest;
   if (sizes.cubic_distance) {
     group_beyond(*sizes.cubic_distance, 0);
     separate(near, sizes.min_cubic, group);

@@ -24,8 +24,8 @@ struct HeldBond {
   double force;  ///< N, positive repels; 0 once broken
 };
 
-double factor_of(const ForcesOfPairs& law, std::size_t i, std::uint32_t j) {
-  return law.factor ? law.factor(static_cast<std::uint32_t>(i), j) : 1;
+double factor_of(const LocalStiffness& local, std::size_t i, std::uint32_t j) {
+  return local.factor ? local.factor(static_cast<std::uint32_t>(i), j) : 1;
 }
 
 double force_of(const ForcesOfPairs& law, bool nearest, double d, double rest) {
@@ -39,6 +39,7 @@ template <class Visit>
 void for_each_bond(const RestBody& rest, const FrameState& state, std::size_t i,
                    const Visit& visit) {
   const Points& now = state.positions;
+  const LocalStiffness& local = rest.stiffness().local;
   const auto among = [&](const NeighborLists& lists, std::size_t before, bool nearest) {
     if (lists.size() == 0) return;
     for (std::uint32_t e = lists.first[i]; e < lists.first[i + 1]; ++e) {
@@ -49,8 +50,7 @@ void for_each_bond(const RestBody& rest, const FrameState& state, std::size_t i,
                                           : state.bond_rest[before + e];
       bond.whole = bond.rest > 0 && bond.length < rest.law.reach;
       if (bond.whole)
-        bond.force =
-            factor_of(rest.law, i, j) * force_of(rest.law, nearest, bond.length, bond.rest);
+        bond.force = factor_of(local, i, j) * force_of(rest.law, nearest, bond.length, bond.rest);
       visit(bond);
     }
   };
@@ -66,7 +66,7 @@ Mat3 virial(double force, const Vec3& apart, double d) {
 /// Returns the stress of a particle's volume energy U = (K_v / 2) V0 w (J - 1)^2, over V0. It is
 /// severed and keeps no volume once a bond broke.
 Mat3 volume_stress(const RestBody& rest, const FrameState& state, std::size_t i, bool severed) {
-  const std::vector<double>& weight = rest.law.volume_weight;
+  const std::vector<double>& weight = rest.stiffness().local.volume_weight;
   if (weight.empty() || weight[i] == 0 || severed) return Mat3::Zero();
   const double J = deformation_gradient(rest.shape, state.positions, i).determinant();
   const auto& local = rest.law.volume_stiffness_of;
@@ -117,7 +117,8 @@ Mat3 virial_stress(const RestBody& rest, const FrameState& state,
     const double d = std::sqrt(other.squared);
     sum += virial(rest.law.force(d), other.apart, d);
   }
-  const double share = rest.share.empty() ? 1 : rest.share[i];
+  const std::vector<double>& shares = rest.stiffness().share;
+  const double share = shares.empty() ? 1 : shares[i];
   if (!(share > 0)) return Mat3::Constant(not_measured);
   const Mat3 passive = sum / (2 * volume_per_particle(rest.radius));
   const Mat3 stress = (passive + volume_stress(rest, state, i, severed)) / share;

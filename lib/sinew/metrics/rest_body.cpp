@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
@@ -49,11 +50,6 @@ void check(const RestInput& input) {
   require(input.weight.empty() || input.weight.size() == input.positions.size(),
           "there are " + std::to_string(input.positions.size()) + " particles but weights for " +
               std::to_string(input.weight.size()));
-  const bool keeps_volume =
-      input.law.volume_stiffness > 0 || !input.law.volume_stiffness_of.empty();
-  require(!keeps_volume || input.law.volume_weight.size() == input.positions.size(),
-          "there are " + std::to_string(input.positions.size()) + " particles that keep their " +
-              "volumes, but weights for " + std::to_string(input.law.volume_weight.size()));
   check_bones(input.bones);
   for (const int bone : input.bone)
     require(bone >= -1 && bone < static_cast<int>(input.bones.size()),
@@ -119,23 +115,10 @@ bool all_finite(const Points& points) {
 
 namespace {
 
-/// The pairs within a range that are no neighbors.
-NeighborLists second_neighbors(const RestShape& shape, double range) {
-  const NeighborLists all = neighbors_within(shape.points, range);
-  NeighborLists second;
-  second.first.push_back(0);
-  for (std::size_t i = 0; i < shape.points.size(); ++i) {
-    const auto nearest = shape.neighbors.of(i);
-    for (const std::uint32_t j : all.of(i))
-      if (!std::binary_search(nearest.begin(), nearest.end(), j)) second.neighbor.push_back(j);
-    second.first.push_back(static_cast<std::uint32_t>(second.neighbor.size()));
-  }
-  return second;
-}
-
 /// Sums k l^2 over a particle's bonds, over that of one inside, where springs differ in stiffness.
-std::vector<double> stiffness_shares(const RestBody& body, const ForcesOfPairs& law) {
-  if (!law.factor || !law.second) return {};
+std::vector<double> stiffness_shares(const RestBody& body, const LocalStiffness& local) {
+  const ForcesOfPairs& law = body.law;
+  if (!local.factor || !law.second) return {};
   const double k = law.bond(0, 1), second = law.second(0, 1);  // of springs with f = k (l - d)
   const double inside =
       12 * k * 4 * body.radius * body.radius + 6 * second * 8 * body.radius * body.radius;
@@ -143,7 +126,7 @@ std::vector<double> stiffness_shares(const RestBody& body, const ForcesOfPairs& 
   const auto add = [&](const NeighborLists& lists, double stiffness) {
     for (std::size_t i = 0; i < lists.size(); ++i)
       for (const std::uint32_t j : lists.of(i))
-        shares[i] += law.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
+        shares[i] += local.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
                      (body.shape.points[i] - body.shape.points[j]).squaredNorm();
   };
   add(body.shape.neighbors, k);
@@ -152,6 +135,24 @@ std::vector<double> stiffness_shares(const RestBody& body, const ForcesOfPairs& 
 }
 
 }  // namespace
+
+struct RestBody::Found {
+  std::once_flag once;
+  BondStiffness stiffness;
+};
+
+const BondStiffness& RestBody::stiffness() const {
+  std::call_once(stiffness_->once, [this] {
+    BondStiffness& found = stiffness_->stiffness;
+    if (law.local) found.local = law.local();
+    const bool keeps_volume = law.volume_stiffness > 0 || !law.volume_stiffness_of.empty();
+    require(!keeps_volume || found.local.volume_weight.size() == particles(),
+            "there are " + std::to_string(particles()) + " particles that keep their volumes, " +
+                "but weights for " + std::to_string(found.local.volume_weight.size()));
+    found.share = stiffness_shares(*this, found.local);
+  });
+  return stiffness_->stiffness;
+}
 
 RestBody rest_body(RestInput input) {
   check(input);
@@ -164,17 +165,21 @@ RestBody rest_body(RestInput input) {
   body.sections = make_sections(input.surface, input.bones,
                                 [&](const Vec3& place) { return near_joint(zones, place); });
   body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
-  body.shape = rest_shape(std::move(input.positions), rest_neighbor_range(input.radius));
-  if (input.law.second) body.second = second_neighbors(body.shape, input.law.second_range);
+  const bool with_second = static_cast<bool>(input.law.second);
+  if (!input.neighbors)
+    input.neighbors = std::make_shared<const RestNeighbors>(
+        rest_neighbors(input.positions, input.radius, with_second));
+  body.shape = rest_shape(std::move(input.positions), input.neighbors->nearest);
+  if (with_second) body.second = second_neighbors(*input.neighbors);
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
   body.surface = std::move(input.surface);
   body.bones = std::move(input.bones);
   body.radius = input.radius;
-  body.share = stiffness_shares(body, input.law);
   body.interaction_range = input.interaction_range;
   body.start = input.start;
   body.law = std::move(input.law);
+  body.stiffness_ = std::make_shared<RestBody::Found>();
   body.mass = input.mass;
   body.density = std::move(input.density);
   return body;

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <sinew/core/deformation.h>
+#include <sinew/core/rest_neighbors.h>
 #include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
 #include <sinew/metrics/frame.h>
@@ -18,6 +20,13 @@
 #include <sinew/metrics/slices.h>
 
 namespace sinew {
+
+/// How stiff bonds and volumes are around single particles, over those inside.
+struct LocalStiffness {
+  /// Factor on the force of two particles' bond; empty: 1.
+  std::function<double(std::uint32_t, std::uint32_t)> factor;
+  std::vector<double> volume_weight;  ///< by particle; empty: none keeps its volume
+};
 
 /// The forces between particles as functions of their distances. Called from several threads.
 struct ForcesOfPairs {
@@ -27,22 +36,22 @@ struct ForcesOfPairs {
   std::function<double(double, double)> bond;
   /// The same between second neighbors at rest, which also act as others do; empty: no more.
   std::function<double(double, double)> second;
-  double second_range = 0;  ///< m; pairs at rest that are closer, and no neighbors, are second ones
-  /// Factor on the force of two particles' bond; empty: 1.
-  std::function<double(std::uint32_t, std::uint32_t)> factor;
+  /// Called once, where forces are asked for first: it may take seconds. Empty: the same
+  /// throughout.
+  std::function<LocalStiffness()> local;
   /// Neighbors at rest farther apart than this hold no longer, m.
   double reach = std::numeric_limits<double>::infinity();
   double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
   std::vector<double> volume_stiffness_of = {};  ///< by particle; empty: as that
-  /// Weight of each particle's volume stiffness, over that of one inside; empty where none is.
-  std::vector<double> volume_weight;
   bool bonds_change = false;  ///< they break or creep: a frame's state must contain them
   bool has_muscles = false;   ///< a frame's state must contain their stress
 };
 
 /// Input: the body at rest and its constants. Particles are in the written order.
 struct RestInput {
-  Points positions;       ///< of the n particles at rest, m
+  Points positions;  ///< of the n particles at rest, m
+  SharedNeighbors neighbors =
+      {};                 ///< of these, with second ones where law.second is; none: searched
   Triangles surface;      ///< the body's skin at rest, outside out
   std::vector<int> bone;  ///< n; the bone each particle follows (most), -1 for none
   std::vector<MeasuredBone> bones;
@@ -64,6 +73,13 @@ struct Bound {
   bool far = true;           ///< the foot lies outside every joint zone
 };
 
+/// What stresses need beside the law: found where they are asked for first.
+struct BondStiffness {
+  LocalStiffness local;
+  /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
+  std::vector<double> share;
+};
+
 struct RestBody {
   RestShape shape;       ///< neighbors: pairs closer than 2.2 r
   NeighborLists second;  ///< neighbors of law.second; empty: there are none
@@ -74,8 +90,6 @@ struct RestBody {
   std::vector<Bound> bound;
   std::vector<int> bone_of;    ///< n; -1 for none
   std::vector<double> weight;  ///< n, or empty
-  /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
-  std::vector<double> share;
   Slices slices;
   std::vector<Section> sections;
   double radius = 0, interaction_range = 0;  ///< m
@@ -84,6 +98,8 @@ struct RestBody {
   double mass = not_measured;   ///< of a particle, kg
   std::vector<double> density;  ///< n; factors on it; or empty
 
+  /// In time for the first caller of several threads.
+  const BondStiffness& stiffness() const;
   double mass_of(std::size_t i) const { return density.empty() ? mass : mass * density[i]; }
   std::size_t particles() const { return shape.points.size(); }
   /// Bonds of a particle at rest, if its material has some.
@@ -91,6 +107,11 @@ struct RestBody {
     return shape.neighbors.of(i).size() + (second.size() > 0 ? second.of(i).size() : 0);
   }
   double rest_pairs() const { return static_cast<double>(shape.neighbors.neighbor.size()) / 2; }
+
+ private:
+  struct Found;
+  std::shared_ptr<Found> stiffness_;
+  friend RestBody rest_body(RestInput input);
 };
 
 /// Checks the input and computes the rest. Throws bad input for sizes that do not agree, indices

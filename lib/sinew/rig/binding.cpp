@@ -72,7 +72,10 @@ struct Choice {
 /// The nearest bones by paths inside; particles without a path get the nearest by straight
 /// distance.
 std::size_t choose_inside(Choice& choice, double particle_volume) {
-  const InsidePaths paths = inside_paths(choice.rest, choice.skeleton, choice.options.radius);
+  const auto* near = choice.options.neighbors;
+  const InsidePaths paths =
+      near != nullptr ? inside_paths(choice.rest, choice.skeleton, choice.options.radius, *near)
+                      : inside_paths(choice.rest, choice.skeleton, choice.options.radius);
   choice.inside = near_inside(paths, choice.skeleton, 0);
   choice.nearest = paths.straight_nearest;
   std::size_t unreached = 0;

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include <sinew/core/cell_grid.h>
 #include <sinew/rig/skeleton.h>
 
 namespace sinew {
@@ -68,7 +69,9 @@ struct BoundRegion {
 };
 
 struct BindOptions {
-  double radius = 0;      ///< of the particles, m; their volume is that of closest packing
+  double radius = 0;  ///< of the particles, m; their volume is that of closest packing
+  /// Nearest neighbors of the particles at rest, by which paths inside go; nullptr: searched.
+  const NeighborLists* neighbors = nullptr;
   bool inside = false;    ///< nearest by the path inside the body
   double joint_zone = 0;  ///< length of the zones in square roots of the bones' cross-section
   double core_radius =

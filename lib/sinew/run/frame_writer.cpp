@@ -104,20 +104,19 @@ struct ReactionColumns {
 }  // namespace
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
-                         const Body& body, const Triangles& surface,
-                         std::vector<Triangles> obstacles, std::span<const double> kept,
-                         SurfaceLook look, std::vector<Probe> probes, StrainInFrames strain)
+                         const Body& body, FrameScene scene, std::span<const double> kept,
+                         StrainInFrames strain)
     : folder_(folder),
       body_(body),
-      selection_{written_particles(output, body.rest, body.material.pair.r),
+      selection_{written_particles(output, body.rest, body.material.pair.r, scene.neighbors),
                  frame_arrays(output.only)},
       every_(static_cast<std::size_t>(output.every)),
       taken_(kept.size()),
-      skin_(
-          make_skin(surface.points, body.rest, body.material.pair.r, body.skeleton, body.binding)),
-      surface_(surface),
+      skin_(make_skin(scene.surface.points, body.rest, body.material.pair.r, body.skeleton,
+                      body.binding)),
+      surface_(std::move(scene.surface)),
       surface_bone_(bones_of_vertices(skin_, body.binding)),
-      obstacles_(std::move(obstacles)),
+      obstacles_(std::move(scene.obstacles)),
       particles_(folder, format_of(output, "particles", body.material.pair.r), each(every_, kept)),
       skins_(folder, format_of(output, "surface", body.material.pair.r), kept),
       bones_(folder, format_of(output, "bones", body.material.pair.r), kept),
@@ -130,10 +129,11 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
     support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
     support_series_.emplace(folder, format_of(output, "supports", body.material.pair.r), kept);
   }
-  if (!probes.empty()) probe_table_.emplace(folder / "probes.csv", std::move(probes), kept.size());
+  if (!scene.probes.empty())
+    probe_table_.emplace(folder / "probes.csv", std::move(scene.probes), kept.size());
   begin_skinned(output, kept);
-  if (output.export_surface) begin_export(kept.size(), std::move(look));
-  begin_arrays(output, kept, strain);
+  if (output.export_surface) begin_export(kept.size(), std::move(scene.look));
+  begin_arrays(output, std::move(scene.neighbors), kept, strain);
   begin_checksums();
 }
 
@@ -186,13 +186,13 @@ void FrameWriter::begin_export(std::size_t kept, SurfaceLook look) {
   export_ = std::make_unique<PointCache>(folder_ / "surface.pc2", skin_.rest.size(), kept);
 }
 
-void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const double> kept,
-                               StrainInFrames strain) {
+void FrameWriter::begin_arrays(const OutputSettings& output, SharedNeighbors near,
+                               std::span<const double> kept, StrainInFrames strain) {
   const std::string words = strain == StrainInFrames::by_default ? words_for_arrays(output, body_)
                                                                  : words_asked_for(output, body_);
   arrays_ = requested_arrays(words);
   if (arrays_.empty() && !output.bonds && !probe_table_) return;
-  measured_.emplace(body_, surface_);
+  measured_.emplace(body_, surface_, std::move(near));
   if (output.bonds)
     bond_series_.emplace(folder_, format_of(output, "bonds", body_.material.pair.r),
                          each(every_, kept));
@@ -205,8 +205,9 @@ void FrameWriter::begin_arrays(const OutputSettings& output, std::span<const dou
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
                          const Prepared& prepared)
-    : FrameWriter(folder, output, prepared.body, prepared.surface.triangles, prepared.obstacles, {},
-                  prepared.look, prepared.probes) {}
+    : FrameWriter(folder, output, prepared.body,
+                  {prepared.surface.triangles, prepared.obstacles, prepared.look, prepared.probes,
+                   prepared.body.neighbors}) {}
 
 void FrameWriter::add(Simulation& simulation, double time, bool begun) {
   writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does

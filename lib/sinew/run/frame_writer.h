@@ -42,16 +42,22 @@ namespace sinew {
 /// it.
 enum class StrainInFrames { by_default, on_request };
 
+/// What frames contain beside the body.
+struct FrameScene {
+  Triangles surface = {};                 ///< the body's skin at rest
+  std::vector<Triangles> obstacles = {};  ///< of its world, each in its own frame
+  SurfaceLook look = {};                  ///< of the exported surface
+  std::vector<Probe> probes = {};         ///< for probes.csv
+  SharedNeighbors neighbors = {};         ///< of the body at rest; none: its own, or searched
+};
+
 class FrameWriter {
  public:
-  /// `surface`: the body's skin at rest; `obstacles`: those of its world, each in its own frame;
-  /// `kept`: times (s) of frames already written; `look`: of the exported surface; `probes`: for
-  /// probes.csv. The body must
-  /// outlive the writer. Throws not written, and bad input when one of those frames is missing.
+  /// `kept`: times (s) of frames already written. The body must outlive the writer. Throws not
+  /// written, and bad input when one of those frames is missing.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output, const Body& body,
-              const Triangles& surface, std::vector<Triangles> obstacles,
-              std::span<const double> kept = {}, SurfaceLook look = {},
-              std::vector<Probe> probes = {}, StrainInFrames strain = StrainInFrames::by_default);
+              FrameScene scene, std::span<const double> kept = {},
+              StrainInFrames strain = StrainInFrames::by_default);
   /// The same of a scene that begins.
   FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
               const Prepared& prepared);
@@ -108,8 +114,8 @@ class FrameWriter {
 
   void begin_skinned(const OutputSettings& output, std::span<const double> kept);
   void begin_export(std::size_t kept, SurfaceLook look);
-  void begin_arrays(const OutputSettings& output, std::span<const double> kept,
-                    StrainInFrames strain);
+  void begin_arrays(const OutputSettings& output, SharedNeighbors near,
+                    std::span<const double> kept, StrainInFrames strain);
   Moved take(Simulation& simulation, double time);
   void write(Moved& frame);
   void write_particles(Moved& frame, const FrameState& state);

@@ -13,8 +13,12 @@
 namespace sinew {
 namespace {
 
-RestBody measured_rest(const Body& body, const Triangles& surface) {
-  RestInput input = measured_body(body.material, body.skeleton, body.factors);
+RestBody measured_rest(const Body& body, const Triangles& surface, SharedNeighbors near) {
+  RestInput input = measured_body(body.material, body.skeleton);
+  input.neighbors = near ? std::move(near) : body.neighbors;
+  input.law.local = [factors = std::make_shared<const BondFactors>(body.factors)] {
+    return stiffness_by(factors);
+  };
   input.law.volume_stiffness_of = body.local.volume;
   input.law.has_muscles = has_muscles(body);
   input.positions = body.rest;
@@ -25,8 +29,8 @@ RestBody measured_rest(const Body& body, const Triangles& surface) {
 
 }  // namespace
 
-ParticleMeter::ParticleMeter(const Body& body, const Triangles& surface)
-    : world_(body.world), rest_(measured_rest(body, surface)) {}
+ParticleMeter::ParticleMeter(const Body& body, const Triangles& surface, SharedNeighbors near)
+    : world_(body.world), rest_(measured_rest(body, surface, std::move(near))) {}
 
 FrameState ParticleMeter::at_rest() const {
   FrameState state = state_at_rest(rest_);

@@ -24,8 +24,9 @@ class Simulation;
 
 class ParticleMeter {
  public:
-  /// `surface`: of the body at rest. Throws bad input where it has no area.
-  ParticleMeter(const Body& body, const Triangles& surface);
+  /// `surface`: of the body at rest; `near`: its neighbors there; none: searched. Throws bad input
+  /// where the surface has no area.
+  ParticleMeter(const Body& body, const Triangles& surface, SharedNeighbors near = {});
 
   const RestBody& rest() const { return rest_; }
   /// The body at rest.

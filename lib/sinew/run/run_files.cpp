@@ -323,7 +323,15 @@ void FramesInOrder::begin() {
                                [&run = run_, index = index_++] { return read_frame(run, index); }));
 }
 
-ForcesOfPairs pair_law(const Material& material, const BondFactors& factors) {
+LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors) {
+  std::vector<double> weights = factors->volume_weight;
+  return {[factors = std::move(factors)](std::uint32_t i, std::uint32_t j) {
+            return factors->of(i).at(j);
+          },
+          std::move(weights)};
+}
+
+ForcesOfPairs pair_law(const Material& material) {
   const ForceLaw& law = law_of(material);
   ForcesOfPairs measured;
   measured.bonds_change = bonds_change(material);
@@ -334,42 +342,40 @@ ForcesOfPairs pair_law(const Material& material, const BondFactors& factors) {
       return law.bond_force(material, {rest, material.bond.stiffness}, d);
     };
   if (material.bond.second > 0) {
-    measured.second_range = second_neighbor_range * material.pair.r;
     measured.second = [&law, material](double d, double rest) {
       return law.bond_force(material, {rest, material.bond.second}, d);
     };
-    measured.factor = [kept = std::make_shared<const BondFactors>(factors)](
-                          std::uint32_t i, std::uint32_t j) { return kept->of(i).at(j); };
   }
   if (law.has_bonds) measured.volume_stiffness = material.volume_stiffness;
-  measured.volume_weight = factors.volume_weight;
   return measured;
 }
 
-RestInput measured_body(const Material& material, const Skeleton& skeleton,
-                        const BondFactors& factors) {
+RestInput measured_body(const Material& material, const Skeleton& skeleton) {
   RestInput input;
   for (const Bone& bone : skeleton.bones)
     input.bones.push_back({bone.name, bone.parent, bone.length, bone.rest});
   input.radius = material.pair.r;
   input.interaction_range = material.pair.b;
   input.mass = material.mass;
-  input.law = pair_law(material, factors);
+  input.law = pair_law(material);
   return input;
 }
 
 RestInput measured_body(const RunFiles& run) {
-  Points rest = positions_of(run.body.particles);
-  const LocalMaterial local = local_material(run.body);
-  RestInput input =
-      measured_body(run.material, run.skeleton,
-                    bond_factors(rest, run.material, local.share, local.stiffness,
-                                 run.body.volume_stiffness.value_or(std::vector<double>{})));
+  RestInput input = measured_body(run.material, run.skeleton);
+  input.positions = positions_of(run.body.particles);
+  input.neighbors = std::make_shared<const RestNeighbors>(
+      rest_neighbors(input.positions, run.material.pair.r, run.material.bond.second > 0));
+  input.law.local = [&run, near = input.neighbors] {
+    const LocalMaterial local = local_material(run.body);
+    return stiffness_by(std::make_shared<const BondFactors>(
+        bond_factors(positions_of(run.body.particles), *near, run.material, local.share,
+                     local.stiffness, run.body.volume_stiffness.value_or(std::vector<double>{}))));
+  };
   if (run.body.volume_stiffness) input.law.volume_stiffness_of = *run.body.volume_stiffness;
   if (run.body.density) input.density = *run.body.density;
   input.law.has_muscles = !run.settings.world.muscles.empty();
   if (!run.ids.empty()) input.law = {};  // of what is not there, forces act as well
-  input.positions = std::move(rest);
   input.surface = run.surface;
   input.bone.assign(run.body.bone->begin(), run.body.bone->end());
   if (run.body.weight) input.weight = *run.body.weight;

@@ -100,15 +100,16 @@ class FramesInOrder {
 
 // The input of metrics: the body and the forces in it.
 
-/// The material's forces between particles.
-ForcesOfPairs pair_law(const Material& material, const BondFactors& factors = {});
+/// The material's forces between particles, the same throughout.
+ForcesOfPairs pair_law(const Material& material);
+/// The stiffness around each particle.
+LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors);
 
 /// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds
 /// positions, surface and the bones of particles.
-RestInput measured_body(const Material& material, const Skeleton& skeleton,
-                        const BondFactors& factors = {});
+RestInput measured_body(const Material& material, const Skeleton& skeleton);
 
-/// The same from a run's files, with its body at rest.
+/// The same from a run's files, with its body at rest. The run must outlive what is made of it.
 RestInput measured_body(const RunFiles& run);
 
 /// A frame as input of the metrics.

@@ -128,10 +128,9 @@ class Run {
     schedule_ = {prepared.frames, prepared.plan, prepared.load_steps.has_value()};
     const StepChoice steps = prepared.steps;
     const Motion motion = prepared.motion;
-    std::vector<Triangles> obstacles = std::move(prepared.obstacles);
-    std::vector<Probe> probes = std::move(prepared.probes);
-    const Triangles surface = std::move(prepared.surface.triangles);
-    SurfaceLook look = std::move(prepared.look);
+    FrameScene around{std::move(prepared.surface.triangles), std::move(prepared.obstacles),
+                      std::move(prepared.look), std::move(prepared.probes),
+                      prepared.body.neighbors};
     simulation_.emplace(start(std::move(prepared)));
     prepared = Prepared();  // millions of numbers that nobody needs any more
     if (state) {
@@ -139,8 +138,8 @@ class Run {
       schedule_.there = schedule_.frames_until(*state);
       log_.frames(schedule_.there);
     }
-    writer_.emplace(folder_.path, scene_.output, simulation_->body(), surface, std::move(obstacles),
-                    schedule_.times_there(), std::move(look), std::move(probes),
+    writer_.emplace(folder_.path, scene_.output, simulation_->body(), std::move(around),
+                    schedule_.times_there(),
                     ranks_write() ? StrainInFrames::on_request : StrainInFrames::by_default);
     if (options_.engine)
       elsewhere_.emplace(*options_.engine, folder_.engine(), *simulation_, motion,

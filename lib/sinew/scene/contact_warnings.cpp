@@ -253,8 +253,8 @@ void warn_of_meeting_limbs(const Prepared& prepared, const NeighborLists& lists,
 
 void warn_of_contacts(const Prepared& prepared, Warnings& warnings) {
   const Body& body = prepared.body;
-  const NeighborLists lists =
-      neighbors_within(body.rest, rest_neighbor_range(body.material.pair.r));
+  const SharedNeighbors shared = neighbors_of(body);
+  const NeighborLists& lists = shared->nearest;
   warn_of_few_layers(body, lists, warnings);
   warn_of_gaps(body, prepared.surface, lists, warnings);
   const bool sticks =

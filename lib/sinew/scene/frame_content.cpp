@@ -19,10 +19,9 @@ namespace {
 constexpr std::size_t max_particles_with_strain = 200'000;
 
 /// 1 for particles whose neighbors all have all of theirs.
-std::vector<std::uint8_t> deep_inside(const Points& rest, double radius) {
-  const NeighborLists near = neighbors_within(rest, rest_neighbor_range(radius));
+std::vector<std::uint8_t> deep_inside(const NeighborLists& near) {
   const auto has_all = [&](std::uint32_t i) { return near.of(i).size() >= max_neighbors_at_rest; };
-  std::vector<std::uint8_t> inside(rest.size(), 0);
+  std::vector<std::uint8_t> inside(near.size(), 0);
   for (std::uint32_t i = 0; i < inside.size(); ++i) {
     const auto around = near.of(i);
     inside[i] = has_all(i) && std::all_of(around.begin(), around.end(), has_all) ? 1 : 0;
@@ -33,7 +32,7 @@ std::vector<std::uint8_t> deep_inside(const Points& rest, double radius) {
 }  // namespace
 
 std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest,
-                                            double radius) {
+                                            double radius, const SharedNeighbors& near) {
   std::vector<std::int32_t> ids;
   if (!output.region && output.inside_every == 1) return ids;
   Box region;
@@ -42,7 +41,9 @@ std::vector<std::int32_t> written_particles(const OutputSettings& output, const 
     region = Box(Vec3(x0, y0, z0), Vec3(x1, y1, z1));
   }
   std::vector<std::uint8_t> inside;
-  if (output.inside_every > 1) inside = deep_inside(rest, radius);
+  if (output.inside_every > 1)
+    inside =
+        deep_inside(near ? near->nearest : neighbors_within(rest, rest_neighbor_range(radius)));
   int met = 0;  // of those inside
   for (std::size_t i = 0; i < rest.size(); ++i) {
     if (output.region && !region.contains(rest[i])) continue;

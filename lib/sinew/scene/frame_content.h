@@ -16,9 +16,10 @@ namespace sinew {
 
 /// The particles that frames contain, ascending: those that are in output.region at rest (n x 3,
 /// m; `radius`, m), its border included, and of the inside of the body those of
-/// output.inside_every. Empty: all of them. Throws bad input for a region without any.
+/// output.inside_every. Empty: all of them. `near`: the neighbors at rest; none: searched if
+/// needed. Throws bad input for a region without any.
 std::vector<std::int32_t> written_particles(const OutputSettings& output, const Points& rest,
-                                            double radius);
+                                            double radius, const SharedNeighbors& near = {});
 
 /// The arrays of particles beside those that every scene has: the ones of output.arrays; of bodies
 /// of up to 200,000 particles strain_eq; and, where positions alone do not give it later,

@@ -79,10 +79,11 @@ BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleto
 }  // namespace
 
 Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skeleton& skeleton,
-                   const Points& rest, double radius) {
+                   const Points& rest, const NeighborLists& nearest, double radius) {
   const BindingOptions& given = settings.binding;
   BindOptions options;
   options.radius = radius;
+  options.neighbors = &nearest;
   options.inside = given.method == BindMethod::inside;
   options.joint_zone = given.joint_zone;
   if (given.core_radius) options.core_radius = *given.core_radius;
@@ -140,14 +141,16 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   Body body;
   body.rest = positions_of(particles);
   body.skeleton = std::move(skeleton);
-  body.binding = bind_scene(settings, files, body.skeleton, body.rest, particles.radius);
   body.material = material_of(settings, particles);
+  body.neighbors = neighbors_of(body);
+  body.binding = bind_scene(settings, files, body.skeleton, body.rest, body.neighbors->nearest,
+                            particles.radius);
   body.lattice = lattice_axes(settings.body);
   body.share = std::move(local.share);
   body.stiffness = std::move(local.stiffness);
   set_local_materials(settings, Parts(settings, body, files.surface, local.component), body);
-  body.factors =
-      bond_factors(body.rest, body.material, body.share, body.stiffness, body.local.volume);
+  body.factors = bond_factors(body.rest, *body.neighbors, body.material, body.share, body.stiffness,
+                              body.local.volume);
   body.factors.stiffest = std::max(body.factors.stiffest, stiffest_volume(body));
   set_damping_ratio(settings, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
@@ -183,7 +186,8 @@ void set_groups(Prepared& prepared) {
   const auto sizes = group_sizes(prepared.settings, prepared.body);
   if (!sizes) return;
   if (prepared.settings.hierarchy.dynamic)
-    prepared.dynamic_groups = {*sizes, prepared.settings.hierarchy.tolerance};
+    prepared.dynamic_groups = {*sizes, prepared.settings.hierarchy.tolerance,
+                               prepared.body.neighbors};
   else
     prepared.body.grouping =
         groups_that_stay(prepared.settings, prepared.body, prepared.motion, *sizes);
@@ -219,7 +223,8 @@ void plan(Prepared& prepared) {
   if (is_static(settings)) prepared.load_steps = load_steps_of(settings, prepared);
   if (settings.output.region)
     with_context(settings, "output.region", [&] {
-      written_particles(settings.output, prepared.body.rest, prepared.body.material.pair.r);
+      written_particles(settings.output, prepared.body.rest, prepared.body.material.pair.r,
+                        prepared.body.neighbors);
     });
   if (static_cast<double>(prepared.plan.steps_until(prepared.frames.count)) > max_steps)
     throw bad_input(settings.place("solver.duration"), "the run would take over 2e9 steps",
@@ -267,6 +272,7 @@ Prepared prepare(Scene scene) {
 Simulation start(const Prepared& prepared) { return start(Prepared(prepared)); }
 
 Simulation start(Prepared&& prepared) {
+  prepared.body.neighbors.reset();  // stepping has lists of its own
   Simulation simulation(std::move(prepared.body), std::move(prepared.motion),
                         std::move(prepared.filled.particles),
                         stepping_of(prepared.settings.solver, prepared.steps.step));

@@ -171,7 +171,8 @@ void add_muscles(const Settings& settings, const Body& body, World& world) {
     muscles.push_back(muscle_of(settings.world.muscles[i], entry("muscles", i), settings, body));
   if (muscles.empty()) return;
   world.muscles = with_context(settings, "world.muscles", [&] {
-    return make_muscles(body.rest, body.material.pair.r, std::move(muscles), body.share);
+    return make_muscles(rest_shape(body.rest, neighbors_of(body)->nearest), std::move(muscles),
+                        body.share);
   });
 }
 

@@ -208,18 +208,23 @@ std::vector<MuscleShare> shares_bound_to(int bone, const Binding& binding) {
   return shares;
 }
 
-Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles,
-                     std::span<const double> share) {
+Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles, std::span<const double> share) {
   for (Muscle& muscle : muscles) {
-    check_muscle(muscle, rest.size());
+    check_muscle(muscle, rest.points.size());
     muscle.direction.normalize();
   }
   Muscles all;
-  all.rest = rest_shape(std::move(rest), rest_neighbor_range(radius));
+  all.rest = std::move(rest);
   all.muscles = std::move(muscles);
   all.share.assign(share.begin(), share.end());
   sort_fibers(all);
   return all;
+}
+
+Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles,
+                     std::span<const double> share) {
+  return make_muscles(rest_shape(std::move(rest), rest_neighbor_range(radius)), std::move(muscles),
+                      share);
 }
 
 Activations activations_at(const Muscles& muscles, double time) {

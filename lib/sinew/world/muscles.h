@@ -69,10 +69,13 @@ struct Muscles {
   double share_of(std::size_t i) const { return share.empty() ? 1 : share[i]; }
 };
 
-/// Prepares the muscles of a body at `rest` (n x 3, m, by id) with particles of `radius` (m).
+/// Prepares the muscles of a body at rest (m, by id; neighbors: nearest ones).
 /// Throws bad input for a direction of zero length, a strength that is not finite, activations
 /// outside [0, 1], shares of unknown particles, out of order or outside (0, 1].
 /// `share`: of the body around each particle, by id, over that of one inside; empty: 1 each.
+Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles,
+                     std::span<const double> share = {});
+/// The same of particles of `radius` (m), whose neighbors are searched.
 Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles,
                      std::span<const double> share = {});
 

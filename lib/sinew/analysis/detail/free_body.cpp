@@ -17,11 +17,12 @@ constexpr double small = 1e-6;  // of displacements, in radii
 /// What ties a body's particles near rest.
 SolidBonds ties_of(const Body& body) {
   const Particles particles = particles_at(body.rest, body.material.pair.r, body.material.mass);
+  const SharedNeighbors near = neighbors_of(body);
   if (law_of(body.material).has_bonds)
-    return make_bonds(body.rest, body.material, particles.id, body.factors);
+    return make_bonds(body.rest, near->all(), body.material, particles.id, body.factors);
   Material paper = body.material;
   paper.bond.stiffness = (paper.pair.contact_stiffness() + paper.pair.tension_stiffness()) / 2;
-  return make_bonds(body.rest, paper);
+  return make_bonds(body.rest, near->all(), paper);
 }
 
 template <class Forces>

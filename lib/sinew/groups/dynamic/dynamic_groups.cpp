@@ -107,7 +107,7 @@ DynamicGroups::DynamicGroups(std::shared_ptr<const Body> body, Motion motion, do
       options_(options),
       max_held_(options.tolerance * body_->material.pair.r * stiffness_of_place *
                 body_->material.stiffness() / mass),
-      near_(neighbors_within(body_->rest, rest_neighbor_range(body_->material.pair.r))),
+      near_(options_.near ? options_.near : neighbors_of(*body_)),
       cell_(body_->rest.size()) {
   const double edge = cell_edge * 2 * body_->material.pair.r;
   Box box;
@@ -301,7 +301,7 @@ void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
   for (std::size_t u = 0; u < units.all().size(); ++u)
     if (const std::int32_t joined = units.all()[u].group; joined >= 0)
       for (const std::uint32_t i : units.members(u)) group[i] = first + joined;
-  separate(near_, cubic ? sizes.min_cubic : sizes.min_particles, group);
+  separate(near_->nearest, cubic ? sizes.min_cubic : sizes.min_particles, group);
   if (!cubic) return;
   free_sheets(*body_, group);
   for (std::size_t u = 0; u < units.all().size(); ++u)

@@ -77,8 +77,8 @@ class DynamicGroups {
   std::shared_ptr<const Body> body_;
   Motion motion_;
   DynamicOptions options_;
-  double max_held_;     ///< m/s^2
-  NeighborLists near_;  ///< nearest ones, by id
+  double max_held_;  ///< m/s^2
+  SharedNeighbors near_;
   std::vector<std::int32_t> cell_;
   std::array<std::int32_t, 3> cells_along_{};
   std::size_t count_ = 0;

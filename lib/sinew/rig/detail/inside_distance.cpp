@@ -55,10 +55,9 @@ std::vector<BoneDistance> walk(const InsidePaths& paths, Queue queue, double lim
 }
 
 /// Particles that touch each one, and those that touch these.
-NeighborLists links_of(const Points& rest, double radius) {
-  const NeighborLists touching = neighbors_within(rest, rest_neighbor_range(radius));
-  std::vector<std::vector<std::uint32_t>> rows(rest.size());
-  parallel_for(rest.size(), particles_per_ray_task, [&](std::size_t begin, std::size_t end) {
+NeighborLists links_of(const NeighborLists& touching) {
+  std::vector<std::vector<std::uint32_t>> rows(touching.size());
+  parallel_for(touching.size(), particles_per_ray_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::vector<std::uint32_t>& row = rows[i];
       for (const std::uint32_t j : touching.of(i)) {
@@ -97,7 +96,12 @@ std::vector<BoneDistance> paths_from(const InsidePaths& paths, const Skeleton& s
 }  // namespace
 
 InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double radius) {
-  InsidePaths paths{links_of(rest, radius), rest, {}, {}};
+  return inside_paths(rest, skeleton, radius, neighbors_within(rest, rest_neighbor_range(radius)));
+}
+
+InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double radius,
+                         const NeighborLists& nearest) {
+  InsidePaths paths{links_of(nearest), rest, {}, {}};
   std::vector<double> distance(rest.size());
   paths.straight_nearest.resize(rest.size());
   parallel_for(rest.size(), particles_per_ray_task, [&](std::size_t begin, std::size_t end) {

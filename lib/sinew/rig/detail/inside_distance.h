@@ -30,6 +30,9 @@ struct InsidePaths {
 };
 
 InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double radius);
+/// The same with the nearest neighbors at rest.
+InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double radius,
+                         const NeighborLists& nearest);
 
 /// Per particle, ascending by bone: the nearest bone by the paths inside, and all others at most
 /// `reach` (m) farther. Empty for particles without a path.
