@@ -234,9 +234,7 @@ double power_step_limit(const Body& body, const WorldLoad& world) {
 double step_limit(Integrator integrator, const Body& body, const WorldLoad& world) {
   const double limit =
       step_limit(integrator, lightest(body), body.springs, world, body.factors.stiffest);
-  const PairForce& pair = body.material.pair;
-  const bool linear =
-      body.material.model != MaterialModel::paper || std::abs(pair.lambda() - 1) < 1e-3;
+  const bool linear = law_of(body.material).is_linear_at_rest(body.material);
   if (integrator == Integrator::explicit_euler || !linear || body.rest.size() > max_tried ||
       !is_thin(neighbors_of(body)->nearest))
     return limit;

@@ -27,18 +27,6 @@ std::uint32_t entry_of(const Bonds& bonds, std::size_t i, std::uint32_t j) {
   return found != last && *found == j ? static_cast<std::uint32_t>(found - begin) : none;
 }
 
-/// Returns the energy of a whole bond.
-double energy_of_bond(const Branches& branches, std::size_t entry, const BondSpring& spring,
-                      double d) {
-  const double longer = d - spring.length;
-  return spring.stiffness / 2 * longer * longer + branches.energy(spring, entry, d);
-}
-/// Returns the energy of a pair whose bond broke.
-double energy_of_contact(const PairForce* contact, double d) {
-  if (contact == nullptr || d >= 2 * contact->r) return 0;
-  return contact->potential(d) - contact->potential(2 * contact->r);
-}
-
 /// The pairs of `near` at rest distances in [from, to), as bonds of that stiffness (N/m).
 Bonds bonds_between(const Points& rest, const NeighborLists& near, double from, double to,
                     double stiffness) {
@@ -168,7 +156,7 @@ void Solid::for_each_held(const Particles& particles, std::size_t i, const Visit
 template <class Visit>
 void Solid::for_each_touched(const Particles& particles, const CellGrid& cells, std::size_t i,
                              const Visit& visit) const {
-  for_each_neighbor(particles, cells, 2 * material_.pair.r, i,
+  for_each_neighbor(particles, cells, law_->range(material_), i,
                     [&](std::uint32_t j, const Vec3& offset, double d) {
                       if (!bonds_.nearest.bonded(i, j)) visit(j, offset, d);
                     });
@@ -217,7 +205,7 @@ void Solid::add_springs_of_second(const Particles& particles, Forces& forces) co
 }
 
 void Solid::forces(const Particles& particles, Forces& forces) {
-  const CellGrid cells = cells_of(particles, 2 * material_.pair.r);
+  const CellGrid cells = cells_of(particles, law_->range(material_));
   const auto for_each_partner = [&](std::size_t i, auto&& visit) {
     for_each_held(particles, i, [&](const BondNow& bond) {
       visit(bond.neighbor, bond.offset, bond.distance,
@@ -236,7 +224,7 @@ void Solid::forces(const Particles& particles, Forces& forces) {
 }
 
 double Solid::energy(const Particles& particles) {
-  const CellGrid cells = cells_of(particles, 2 * material_.pair.r);
+  const CellGrid cells = cells_of(particles, law_->range(material_));
   find_volumes(particles);
   return sum_over_particles(particles.size(), [&](std::size_t i) {
     double sum = 0;
@@ -322,9 +310,9 @@ double Solid::breaking_strain(std::size_t i, std::size_t j) const {
   return std::min(value_at(local_.breaking, i, common), value_at(local_.breaking, j, common));
 }
 
-/// Lets bonds relax, creep and break over a step (s). `contact`: of a pair once its bond broke;
-/// none where it repels anyhow. Returns the energy lost, J.
-double Solid::evolve(Bonds& bonds, Branches& branches, const PairForce* contact,
+/// Lets bonds relax, creep and break over a step (s). `repels_then`: whether a pair does so only
+/// once its bond broke, or anyhow. Returns the energy lost, J.
+double Solid::evolve(Bonds& bonds, Branches& branches, bool repels_then,
                      const std::vector<Mat3>& flow, const Particles& particles, double step) const {
   const BondStrength& strength = material_.bond;
   const double crept = -std::expm1(-strength.creep_rate * step);
@@ -335,6 +323,9 @@ double Solid::evolve(Bonds& bonds, Branches& branches, const PairForce* contact,
     if (flow.empty() || bond.distance == 0) return l;
     const Vec3 n = bond.offset / bond.distance;
     return l * (1 + crept * n.dot((flow[i] + flow[bond.neighbor]) * n) / 2);
+  };
+  const auto energy = [&](std::uint32_t e, const BondSpring& spring, double d) {
+    return law_->bond_energy(material_, spring, d) + branches.energy(spring, e, d);
   };
   // Both directions of a bond see the same distance to the last bit, and change alike.
   return sum_over_particles(bonds.broken.size(), [&](std::size_t i) {
@@ -348,10 +339,10 @@ double Solid::evolve(Bonds& bonds, Branches& branches, const PairForce* contact,
       const double after = next_length(i, {j, offset, d, {before, k}, e});
       bonds.rest_length[e] = after;
       bonds.broken[i] += after == 0;
-      released += (energy_of_bond(branches, e, {before, k}, d) -
-                   (after > 0 ? energy_of_bond(branches, e, {after, k}, d)
-                              : energy_of_contact(contact, d))) /
-                  2;
+      const double left = after > 0     ? energy(e, {after, k}, d)
+                          : repels_then ? law_->energy(material_, d)
+                                        : 0;
+      released += (energy(e, {before, k}, d) - left) / 2;
     }
     return released;
   });
@@ -362,9 +353,8 @@ double Solid::evolve(const Particles& particles, double step) {
   std::vector<bool> severed(rest_.size());
   for (std::size_t i = 0; i < severed.size(); ++i) severed[i] = broken(i) > 0;
   const std::vector<Mat3> now = flow(particles);
-  double released =
-      evolve(bonds_.nearest, branches_.nearest, &material_.pair, now, particles, step) +
-      evolve(bonds_.second, branches_.second, nullptr, now, particles, step);
+  double released = evolve(bonds_.nearest, branches_.nearest, true, now, particles, step) +
+                    evolve(bonds_.second, branches_.second, false, now, particles, step);
   if (local_.volume.empty()) return released;
   for (std::size_t i = 0; i < severed.size(); ++i)
     if (!severed[i] && broken(i) > 0) released += volume_energy(i);

@@ -149,8 +149,8 @@ class Solid {
   void find_volumes(const Particles& particles);
   Vec3 volume_force(std::size_t i) const;
   std::vector<Mat3> flow(const Particles& particles) const;
-  double evolve(Bonds& bonds, Branches& branches, const PairForce* contact,
-                const std::vector<Mat3>& flow, const Particles& particles, double step) const;
+  double evolve(Bonds& bonds, Branches& branches, bool repels_then, const std::vector<Mat3>& flow,
+                const Particles& particles, double step) const;
   double volume_energy(std::size_t i) const;
   double breaking_strain(std::size_t i, std::size_t j) const;
 

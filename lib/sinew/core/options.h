@@ -67,6 +67,23 @@ struct PartOptions {
 };
 
 enum class MaterialModel { paper, bonded, bonded_volume };
+
+/// What a scene calls a model, and what it can do: its forces are in material/laws.h.
+struct MaterialModelRow {
+  std::string_view name;
+  bool has_bonds;     ///< between neighbors at rest, which may break, yield and relax
+  bool keeps_volume;  ///< with a Poisson's ratio of one's choice
+};
+/// In the order of MaterialModel.
+inline constexpr std::array<MaterialModelRow, 3> material_models = {
+    {{"paper", false, false}, {"bonded", true, false}, {"bonded_volume", true, true}}};
+constexpr bool has_bonds(MaterialModel model) {
+  return material_models[static_cast<std::size_t>(model)].has_bonds;
+}
+constexpr bool keeps_volume(MaterialModel model) {
+  return material_models[static_cast<std::size_t>(model)].keeps_volume;
+}
+
 enum class MaterialPresetName { none, fat, muscle, skin, silicone, rubber_foam, clay };
 enum class Cohesion { all, initial_neighbors };
 enum class DampingForm { paper, symmetric, central };
@@ -101,8 +118,7 @@ inline constexpr std::size_t max_relaxation_branches = 4;
 /// Whether bonds of first and second neighbors, with factors, make the material isotropic in that
 /// packing.
 constexpr bool is_isotropic(const MaterialOptions& material, Packing packing) {
-  return material.model != MaterialModel::paper &&
-         material.isotropic.value_or(packing != Packing::hcp);
+  return has_bonds(material.model) && material.isotropic.value_or(packing != Packing::hcp);
 }
 
 // Materials by name: the values of material.preset, each with its source.

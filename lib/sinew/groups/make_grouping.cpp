@@ -264,12 +264,12 @@ void free_sheets(const Body& body, std::vector<std::int32_t>& group) {
 }
 
 StretchRange stretch_range(const Body& body) {
-  const double r = body.material.pair.r, b = body.material.pair.b;
+  const double r = body.material.pair.r;
   const ForceLaw& law = law_of(body.material);
   const double lasts = law.has_bonds || !has_affine_forces(body)
                            ? std::numeric_limits<double>::infinity()
-                           : b / nearest_distance(r);
-  const double least = (law.has_memory ? 2 * r : b) / second_distance(r);
+                           : body.material.pair.b / nearest_distance(r);
+  const double least = law.range(body.material) / second_distance(r);
   const double third_distance = std::sqrt(3) * nearest_distance(r);
   return {least, holds_seconds(body) ? 2 * r / third_distance : least, lasts};
 }

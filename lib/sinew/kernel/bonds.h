@@ -123,6 +123,21 @@ SINEW_INLINE typename L::V spring_energy(const Bonds<typename L::Real>& bonds, c
   return bond.stiffness * squares * L::all(static_cast<typename L::Real>(0.5));
 }
 
+/// Force and energy of bonds: those of springs. A law of one's own specializes it.
+template <class L, PairLaw pairs>
+struct BondForce {
+  using V = typename L::V;
+
+  /// f / d, and the distance d from its square.
+  template <Shell shell, bool careful>
+  SINEW_INLINE static V pull(const SolidLaw<L>& law, const Bond<L>& bond, V squared, V& d) {
+    return spring<L, shell, careful>(law, bond, squared, d);
+  }
+  SINEW_INLINE static V energy(const Bonds<typename L::Real>& bonds, const Bond<L>& bond, V d) {
+    return spring_energy<L>(bonds, bond, d);
+  }
+};
+
 /// The length at which a bond breaks, over its own.
 template <class L>
 SINEW_INLINE typename L::V longest(const Step<typename L::Real>& step, const SolidLaw<L>& law,
@@ -174,14 +189,14 @@ SINEW_INLINE void add_bonds(const Step<typename L::Real>& step, const SolidLaw<L
           if constexpr (careful) part<L>(step, i, j, squared, law.push, pull, d, apart.x);
           sums.add(step, i, j, near, pull, apart, [&] { return potential<L>(step.law, d); });
         } else {
-          pull = spring<L, nearest, careful>(law, bond, squared, d);
+          pull = BondForce<L, pairs>::template pull<nearest, careful>(law, bond, squared, d);
           if constexpr (careful)
             part<L>(step, i, j, squared, bond.slope * bond.free_length, pull, d, apart.x);
           if constexpr (pairs == changing_springs)
             met.strained =
                 L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d, i)));
           sums.add(step, i, j, bond.mask, pull, apart,
-                   [&] { return spring_energy<L>(step.bonds, bond, d); });
+                   [&] { return BondForce<L, pairs>::energy(step.bonds, bond, d); });
         }
         if constexpr (sizeof(typename L::Real) == 8) {
           const V met_at = L::pick(counted, squared, law.touching2);
@@ -202,13 +217,14 @@ SINEW_INLINE void add_second(const Step<typename L::Real>& step, const SolidLaw<
         const std::ptrdiff_t j = i + bond.difference;
         Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
         const V squared = squared_distance<L>(apart);
-        V d, pull = spring<L, second, careful>(law, bond, squared, d);
+        V d, pull = BondForce<L, pairs>::template pull<second, careful>(law, bond, squared, d);
         if constexpr (careful)
           part<L>(step, i, j, squared, bond.slope * bond.free_length, pull, d, apart.x);
         if constexpr (pairs == changing_springs)
           met.strained =
               L::larger(met.strained, L::keep(bond.mask, excess<L>(step, law, bond, d, i)));
-        sums.push(bond.mask, pull, apart, [&] { return spring_energy<L>(step.bonds, bond, d); });
+        sums.push(bond.mask, pull, apart,
+                  [&] { return BondForce<L, pairs>::energy(step.bonds, bond, d); });
         if constexpr (sizeof(typename L::Real) == 8) {
           const V met_at = L::pick(bond.mask, nearer<L, second>(squared), law.touching2);
           met.least = L::smaller(met_at, met.least), met.most = L::larger(met_at, met.most);

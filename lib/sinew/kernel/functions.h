@@ -51,12 +51,12 @@ void flushed_pulls(const Step<typename L::Real>& step, const PulledBlocks<typena
 }
 
 template <class L, PairLaw pairs>
-constexpr void add(Functions<typename L::Real>& functions) {
-  functions.count[pairs] = flushed<L, count_pieces<L, pairs>>;
-  functions.step[pairs][to_the_mean] = flushed<L, step_pieces<L, pairs, forces_to_the_mean>>;
-  functions.step[pairs][pairwise] = flushed<L, step_pieces<L, pairs, forces_pairwise>>;
-  functions.probe[pairs][to_the_mean] = flushed<L, probe_pieces<L, pairs, forces_to_the_mean>>;
-  functions.probe[pairs][pairwise] = flushed<L, probe_pieces<L, pairs, forces_pairwise>>;
+constexpr LawFunctions<typename L::Real> functions_of_law() {
+  return {flushed<L, count_pieces<L, pairs>>,
+          {flushed<L, step_pieces<L, pairs, forces_to_the_mean>>,
+           flushed<L, step_pieces<L, pairs, forces_pairwise>>},
+          {flushed<L, probe_pieces<L, pairs, forces_to_the_mean>>,
+           flushed<L, probe_pieces<L, pairs, forces_pairwise>>}};
 }
 
 template <class L, Motions motions, int terms>
@@ -76,10 +76,10 @@ constexpr Functions<typename L::Real> functions() {
   add_groups<L, cubic, cubic_terms>(all);
   all.pull_bonds = pull_group_bonds<lanes::Doubles, square_terms>;
   all.pull_ends = pull_group_bonds<lanes::Doubles, cubic_terms>;
-  add<L, between_all>(all);
-  add<L, among_neighbors>(all);
-  add<L, springs>(all);
-  add<L, changing_springs>(all);
+  all.law[between_all] = functions_of_law<L, between_all>();
+  all.law[among_neighbors] = functions_of_law<L, among_neighbors>();
+  all.law[springs] = functions_of_law<L, springs>();
+  all.law[changing_springs] = functions_of_law<L, changing_springs>();
   all.kept = kept_forces<L> * sizeof(Forces<L>);
   all.bound = bound_piece<lanes::Floats, typename L::Real>;
   all.list = list_two<lanes::Floats, typename L::Real>;

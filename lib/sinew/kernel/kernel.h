@@ -61,7 +61,10 @@ struct Lists {
 /// What acts between pairs: eq. 1 between all; eq. 1, without its attraction between particles that
 /// were no neighbors at rest; springs between neighbors at rest and the repulsion of eq. 1 between
 /// others; the same with springs that creep, relax and break.
-enum PairLaw { between_all, among_neighbors, springs, changing_springs, pair_laws };
+/// A law of one's own has a number from pair_laws on, and a BondForce (bonds.h).
+enum PairLaw : int { between_all, among_neighbors, springs, changing_springs, pair_laws };
+/// Whether neighbors at rest are bonds, whose far ends need lists of stiffness and length.
+constexpr bool is_bonded(PairLaw law) { return law != between_all && law != among_neighbors; }
 
 /// Eq. 2 towards the mean velocity of the neighbors; or pair by pair, with the mean of both
 /// particles' shares.
@@ -313,18 +316,30 @@ struct Candidates {
 template <class Real>
 using Work = void (*)(const Step<Real>&, std::size_t begin, std::size_t end);
 
+/// The functions of one law.
+template <class Real>
+struct LawFunctions {
+  /// Finds the shares that pairwise damping needs, before a step.
+  Work<Real> count;
+  /// Advances the blocks of the pieces.
+  Work<Real> step[dampings];
+  /// The same: fills `probed` and all of `totals`; moves nothing.
+  Work<Real> probe[dampings];
+};
+
+/// A law that a program brings, of bonds that keep their lengths: see ForceLaw::kernel.
+struct OwnLaw {
+  LawFunctions<double> in_double;
+  LawFunctions<float> in_single;
+};
+
 /// The functions of one instruction set.
 template <class Real>
 struct Functions {
   /// Finds the thrusts of volumes and fibers, which must be known everywhere before a step.
   Work<Real> flow;  ///< of bonds that creep
   Work<Real> strain;
-  /// Finds the shares that pairwise damping needs, before a step; by PairLaw.
-  Work<Real> count[pair_laws];
-  /// Advances the blocks of the pieces; by PairLaw and Damping.
-  Work<Real> step[pair_laws][dampings];
-  /// The same: fills `probed` and all of `totals`; moves nothing.
-  Work<Real> probe[pair_laws][dampings];
+  LawFunctions<Real> law[pair_laws];
   /// Bytes that Surroundings::forces takes, at 64 byte boundaries.
   std::size_t kept;
   /// Functions of groups, by their motions: places and velocities; sums of forces; what bones

@@ -84,7 +84,7 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf
   // First: this long chain of operations completes while those of the pairs run.
   forces.bones = bone_sums<L, energy>(step, block, lane, here, velocity);
   forces.pairs = sums_of<L, pairs, pass, energy>(step, law, block, lane, forces.strained);
-  if constexpr (pairs == springs || pairs == changing_springs)
+  if constexpr (is_bonded(pairs))
     if (step.volumes.stiffness != nullptr)
       add_volumes<L, energy>(step, block, lane, i, forces.pairs);
   if (step.fibers.count > 0) forces.muscle = fiber_force<L>(step, block, lane, i);

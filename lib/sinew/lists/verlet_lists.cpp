@@ -34,13 +34,12 @@ VerletLists<Real>::VerletLists(const kernel::Functions<Real>& kernel, const Mate
       contacts_(law_of(material).has_memory),
       looks_(material.bond.yield_shear > 0),
       step_(step) {
-  const double diameter = 2 * material.pair.r;
+  const double diameter = 2 * material.pair.r, range = law_of(material).range(material);
   if (contacts_)
-    wanted_ = {diameter, diameter * (1 + inner_skin_of_contacts),
-               diameter * (1 + outer_skin_of_contacts), survey_steps_of_contacts};
+    wanted_ = {range, range * (1 + inner_skin_of_contacts), range * (1 + outer_skin_of_contacts),
+               survey_steps_of_contacts};
   else
-    wanted_ = {material.pair.b, material.pair.b + inner_skin * diameter,
-               material.pair.b + outer_skin * diameter, survey_steps};
+    wanted_ = {range, range + inner_skin * diameter, range + outer_skin * diameter, survey_steps};
 }
 
 template <class Real>

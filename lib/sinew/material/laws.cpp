@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/material/laws.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace sinew {
 namespace {
@@ -32,18 +34,33 @@ double spring_energy(const Material&, const BondSpring& spring, double d) {
   return spring.stiffness / 2 * (d - spring.length) * (d - spring.length);
 }
 
+double stiffness_of_eq_1(const Material& material) {
+  return std::max(material.pair.contact_stiffness(), material.pair.tension_stiffness());
+}
+double stiffness_of_springs(const Material& material) {
+  return std::max(material.pair.contact_stiffness(), material.bond.stiffness);
+}
+
+double whole_range(const Material& material) { return material.pair.b; }
+double contact_range(const Material& material) { return 2 * material.pair.r; }
+
+bool is_even(const Material& material) { return std::abs(material.pair.lambda() - 1) < 1e-3; }
+bool always(const Material&) { return true; }
+
 constexpr std::string_view bonded_remark =
     " Rest neighbors are held by bonds instead; others feel its repulsion.";
 
 constexpr std::array<ForceLaw, 4> laws = {{
     {MaterialModel::paper, Cohesion::all, "paper", false, false, eq_1, eq_1_energy, eq_1_bond,
-     eq_1_bond_energy, ""},
+     eq_1_bond_energy, stiffness_of_eq_1, whole_range, is_even, ""},
     {MaterialModel::paper, Cohesion::initial_neighbors, "paper, initial_neighbors", false, true,
-     repulsion, repulsion_energy, eq_1_bond, eq_1_bond_energy, ""},
+     repulsion, repulsion_energy, eq_1_bond, eq_1_bond_energy, stiffness_of_eq_1, contact_range,
+     is_even, ""},
     {MaterialModel::bonded, Cohesion::all, "bonded", true, true, repulsion, repulsion_energy,
-     spring, spring_energy, bonded_remark},
+     spring, spring_energy, stiffness_of_springs, contact_range, always, bonded_remark},
     {MaterialModel::bonded_volume, Cohesion::all, "bonded_volume", true, true, repulsion,
-     repulsion_energy, spring, spring_energy, bonded_remark},
+     repulsion_energy, spring, spring_energy, stiffness_of_springs, contact_range, always,
+     bonded_remark},
 }};
 
 }  // namespace
@@ -51,6 +68,7 @@ constexpr std::array<ForceLaw, 4> laws = {{
 std::span<const ForceLaw> force_laws() { return laws; }
 
 const ForceLaw& law_of(const Material& material) {
+  if (material.law != nullptr) return *material.law;
   for (const ForceLaw& law : laws)
     if (law.model == material.model && (law.has_bonds || law.cohesion == material.cohesion))
       return law;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The one table of laws of force between particles. The steppers, the metrics and the report's
 // curves take a law from here: to add one, add its choice in core/options.h and its row in
-// laws.cpp.
+// laws.cpp. A program may bring one of its own as Material::law: a row like these.
 //
 //     const ForceLaw& law = law_of(material);
 //     const double newtons = law.force(material, 2.1 * material.pair.r);
@@ -13,6 +13,10 @@
 #include <sinew/material/material.h>
 
 namespace sinew {
+
+namespace kernel {
+struct OwnLaw;  // kernel/kernel.h
+}
 
 /// Forces in N, positive repels; distances in m; energies in J.
 struct ForceLaw {
@@ -29,12 +33,22 @@ struct ForceLaw {
   double (*bond_force)(const Material&, const BondSpring&, double d);
   double (*bond_energy)(const Material&, const BondSpring&, double d);
 
+  /// The stiffest of its springs at rest, N/m.
+  double (*stiffness)(const Material&);
+  /// Particles that were no neighbors at rest, or have parted, feel each other within it, m.
+  double (*range)(const Material&);
+  /// Whether pull and push are equally stiff at rest: vibrations about it have frequencies, which
+  /// bound the time step.
+  bool (*is_linear_at_rest)(const Material&);
+
   std::string_view remark;  ///< for the curve of its force; "" for none
+  /// Its steps, where a program brings the law; none: those of the kernel.
+  const kernel::OwnLaw* kernel = nullptr;
 };
 
 std::span<const ForceLaw> force_laws();
 
-/// The law of a material: bonded models know one cohesion.
+/// The law of a material: its own, or that of its model. Bonded models know one cohesion.
 const ForceLaw& law_of(const Material& material);
 
 /// Whether it has bonds that break, creep or relax: its forces then depend on its history.

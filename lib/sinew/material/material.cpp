@@ -19,8 +19,7 @@ double k1_of(const MaterialOptions& settings, const PackingStiffness& packing, P
   const bool isotropic = packing.second > 0;
   const double shear = isotropic ? of_k.hill_shear_modulus() : hill_shear;
   double per_k = isotropic ? of_k.hill_young_modulus() : hill_young;
-  if (settings.model == MaterialModel::bonded_volume)
-    per_k = 2 * shear * (1 + settings.poisson_ratio);
+  if (keeps_volume(settings.model)) per_k = 2 * shear * (1 + settings.poisson_ratio);
   if (settings.modulus_direction)
     per_k = of_k.young_modulus(lattice.transpose() * *settings.modulus_direction);
   per_k *= order_of(sites);
@@ -29,9 +28,9 @@ double k1_of(const MaterialOptions& settings, const PackingStiffness& packing, P
 
 PackingStiffness packing_of(const MaterialOptions& settings, Packing sites) {
   PackingStiffness packing;
-  if (settings.model == MaterialModel::paper) return packing;
+  if (!has_bonds(settings.model)) return packing;
   if (is_isotropic(settings, sites)) packing.second = isotropic_second;
-  if (settings.model == MaterialModel::bonded_volume)
+  if (keeps_volume(settings.model))
     packing.volume = volume_stiffness_for(settings.poisson_ratio, packing.second);
   return packing;
 }
@@ -65,7 +64,7 @@ void bond(const MaterialOptions& settings, const PackingStiffness& packing, Mate
 
 double poisson_ratio_of(const MaterialOptions& settings) {
   constexpr double of_springs = 0.25;
-  return settings.model == MaterialModel::bonded_volume ? settings.poisson_ratio : of_springs;
+  return keeps_volume(settings.model) ? settings.poisson_ratio : of_springs;
 }
 
 double yield_shear(double yield_strain, double poisson_ratio) {
@@ -110,10 +109,7 @@ double Material::young_modulus() const {
   return 9 * K * G / (3 * K + G);
 }
 
-double Material::stiffness() const {
-  return std::max(pair.contact_stiffness(),
-                  law_of(*this).has_bonds ? bond.stiffness : pair.tension_stiffness());
-}
+double Material::stiffness() const { return law_of(*this).stiffness(*this); }
 
 CubicConstants Material::constants() const {
   const double k_over_d0 = 2 * pair.k1 * relaxed;
@@ -135,7 +131,7 @@ Material make_material(const MaterialOptions& settings, const PackedBody& body) 
   pair.k2 = settings.k2.value_or(settings.lambda * pair.contact_stiffness() / (pair.b - pair.a));
   material.mass = body.mass;
   material.order = order_of(body.packing);
-  if (settings.model != MaterialModel::paper) bond(settings, packing, material);
+  if (has_bonds(settings.model)) bond(settings, packing, material);
   material.damping_form = settings.damping_form;
   material.friction = settings.friction;
   material.damping = settings.damping * std::sqrt(pair.contact_stiffness() * body.mass);

@@ -33,6 +33,8 @@ struct BondStrength {
   double long_term() const;  ///< stiffness that does not relax, over all of it
 };
 
+struct ForceLaw;
+
 struct Material {
   MaterialModel model = MaterialModel::paper;
   Cohesion cohesion = Cohesion::all;
@@ -44,7 +46,8 @@ struct Material {
   double mass = 0;              ///< of a particle, kg
   double damping = 0;           ///< C of eq. 2, kg/s
   DampingForm damping_form = DampingForm::paper;
-  double friction = 0;  ///< coefficient, between particles that touch and are not bonded
+  const ForceLaw* law = nullptr;  ///< in place of the model's (laws.h); a program keeps it alive
+  double friction = 0;            ///< coefficient, between particles that touch and are not bonded
 
   double young_modulus() const;  ///< Pa, Hill average over directions
   double stiffness() const;      ///< the stiffest of contact, tension and bonds, N/m

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -112,6 +114,25 @@ PolygonSoup read_obj_look(const std::string& path, PolygonLook& look) {
 
 std::vector<SurfaceLook::Material> read_materials(const std::string& path) {
   return read_mtl(path);
+}
+
+std::string ply_text(const PolygonSoup& soup) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                     std::to_string(soup.points.size()) +
+                     "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                     std::to_string(soup.polygons.size()) +
+                     "\nproperty list uint int vertex_indices\nend_header\n";
+  const auto append = [&](const void* from, std::size_t bytes) {
+    text.append(static_cast<const char*>(from), bytes);
+  };
+  for (const Vec3& point : soup.points) append(point.data(), 3 * sizeof(double));
+  for (const std::vector<int>& polygon : soup.polygons) {
+    const auto corners = static_cast<std::uint32_t>(polygon.size());
+    append(&corners, sizeof corners);
+    append(polygon.data(), corners * sizeof(int));
+  }
+  return text;
 }
 
 }  // namespace sinew

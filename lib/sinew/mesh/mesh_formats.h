@@ -37,6 +37,9 @@ bool names_mesh(const std::string& path, std::span<const MeshFormat> more = {});
 /// the first words identify another format than the extension.
 PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more = {});
 
+/// The polygons as a binary PLY in double: what read_polygons() gives has the same bits.
+std::string ply_text(const PolygonSoup& soup);
+
 /// A Wavefront OBJ with what else describes its surface. Throws Error (bad input), naming the file.
 PolygonSoup read_obj_look(const std::string& path, PolygonLook& look);
 /// The materials of an MTL file beside an OBJ: color (Kd), opacity (d, Tr) and texture (map_Kd).

@@ -17,9 +17,15 @@ Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more) 
   Stopwatch watch;
   PolygonSoup soup = read_polygons(body.mesh, more);
   const double reading = watch.lap();
+  Surface surface = read_surface(std::move(soup), body);
+  surface.seconds_reading = reading;
+  return surface;
+}
+
+Surface read_surface(PolygonSoup soup, const BodyOptions& body) {
+  Stopwatch watch;
   try {
     Surface surface = prepare(std::move(soup), body);
-    surface.seconds_reading = reading;
     surface.seconds_cleaning = watch.lap();
     return surface;
   } catch (const Error& error) {

@@ -20,6 +20,9 @@ namespace sinew {
 /// the time taken. Throws Error (bad input), naming the file.
 Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more = {});
 
+/// The same of polygons that are there already: `body.mesh` is their name.
+Surface read_surface(PolygonSoup soup, const BodyOptions& body);
+
 /// Brings the points into the scene by placement_of(). Throws Error (bad input) where the scale is
 /// not above 0.
 void place(PolygonSoup& soup, const BodyOptions& body);

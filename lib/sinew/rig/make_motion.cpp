@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -183,6 +184,25 @@ Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skel
     motion.tracks.back().bone = bone;
   }
   return motion;
+}
+
+TrackDefinition track_of(std::string bone, std::span<const double> times,
+                         std::span<const Quat> rotations) {
+  if (times.size() != rotations.size())
+    throw bad_input("bone " + shown(bone) + " has " + std::to_string(rotations.size()) +
+                        " rotations at " + std::to_string(times.size()) + " times",
+                    "give a time for each");
+  TrackDefinition track;
+  track.bone = std::move(bone);
+  track.interpolation = Interpolation::linear;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const Quat& q = rotations[k];
+    KeyDefinition key;
+    key.time = times[k];
+    key.quaternion = std::array<double, 4>{q.w(), q.x(), q.y(), q.z()};
+    track.keys.push_back(key);
+  }
+  return track;
 }
 
 }  // namespace sinew

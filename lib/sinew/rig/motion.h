@@ -96,6 +96,11 @@ Motion placed(Motion motion, const Placement& placement);
 Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skeleton,
                    std::optional<double> frame_rate = {});
 
+/// A track of arrays: a rotation of the bone at each time (s), from rest, in the directions of its
+/// parent; between them by the shortest way. Throws bad input where there are not as many.
+TrackDefinition track_of(std::string bone, std::span<const double> times,
+                         std::span<const Quat> rotations);
+
 /// The moment of a clip at a time of the scene.
 struct ClipMoment {
   double time = 0;     ///< of the clip, s

@@ -45,9 +45,9 @@ bool written_by_a_run(const fs::path& relative) {
 
 /// Folders within that of a run, and the run's own. Checkpoints first: without them a partly
 /// removed run cannot be resumed.
-constexpr std::array<const char*, 13> run_parts = {
-    "checkpoint", "",         "particles", "surface",  "bones",  "bonds",   "frames",
-    "obstacles",  "supports", "skin_lbs",  "skin_dqs", "values", "pictures"};
+constexpr std::array<const char*, 14> run_parts = {
+    "checkpoint", "",         "particles", "surface",  "bones",  "bonds",    "frames",
+    "obstacles",  "supports", "skin_lbs",  "skin_dqs", "values", "pictures", "meshes"};
 
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;

@@ -28,6 +28,8 @@ struct RunFolder {
   std::filesystem::path engine() const { return path / ".engine"; }
   /// A state of ParaView that shows the run.
   std::filesystem::path view() const { return path / "view.pvsm"; }
+  /// Meshes that the scene held itself.
+  std::filesystem::path meshes() const { return path / "meshes"; }
   std::filesystem::path pictures() const { return path / "pictures"; }
 
   /// Whether a run has begun here.
@@ -45,9 +47,9 @@ RunFolder run_folder(const std::filesystem::path& scene, const std::filesystem::
 /// Throws not written.
 std::filesystem::path create(const RunFolder& folder);
 
-/// Removes the files of an older run and nothing else; the body is kept, since it may fit the
-/// scene. If killed in between, it leaves a folder that it can be applied to again. Throws not
-/// written.
+/// Removes the files of an older run and nothing else; body and meshes are kept, since the next
+/// scene may name them. If killed in between, it leaves a folder that it can be applied to again.
+/// Throws not written.
 void remove_old_run(const RunFolder& folder);
 
 /// Throws bad input where a folder that no run has used holds files, hidden ones and a body

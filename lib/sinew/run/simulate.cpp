@@ -120,6 +120,7 @@ class Run {
  private:
   void write_beginning(const Prepared& prepared) {
     write_body(folder_.body(), prepared.filled, scene_.output.encoding);
+    write_mesh_files(scene_);
     write_file(folder_.scene(), resolved_scene(scene_, folder_.path));
     write_view_script(folder_.path);
   }
@@ -364,7 +365,7 @@ void say_what_is_doubtful(const Prepared& prepared, const SimulateOptions& optio
 }  // namespace
 
 RunResult simulate(const Settings& given, const RunFolder& folder, const SimulateOptions& options) {
-  const Settings scene = with_fit(given);
+  const Settings scene = with_mesh_files(with_fit(given), folder.meshes());
   if (options.engine) refuse_for_engine(scene, options.engine->name);
   if (given.skeleton.fit != Fit::none) say(options, fit_text(scene.skeleton));
   refuse_foreign_files(folder);  // before anything is written there, a lock included

@@ -53,7 +53,8 @@ struct RunResult {
 
 /// Throws bad input, naming the scene's line, for what the scene gets wrong, for a folder that
 /// holds another run or another sinew works in; unstable, with the last sound state in blowup.vtu;
-/// not written. A run that stops in any way leaves its frames and can be resumed.
+/// not written. A run that stops in any way leaves its frames and can be resumed. Meshes that the
+/// scene holds are written to meshes/*.ply, which the written scene names.
 RunResult simulate(const Settings& scene, const RunFolder& folder,
                    const SimulateOptions& options = {});
 

@@ -49,6 +49,11 @@ std::string mesh_formats() { return mesh_format_names(formats_of_io); }
 
 Surface read_body_mesh(const BodyOptions& body) { return read_surface(body, formats_of_io); }
 
+Surface read_body_mesh(const BodyOptions& body, const Settings& scene) {
+  const auto held = scene.meshes.find(body.mesh);
+  return held == scene.meshes.end() ? read_body_mesh(body) : read_surface(*held->second, body);
+}
+
 namespace {
 
 constexpr std::uint64_t largest_mesh = std::uint64_t{4} << 30;  // bytes
@@ -93,8 +98,8 @@ std::string path_of_part(std::size_t part, const char* key) {
 /// Closed, lest it is unknown which particles lie in it.
 Surface read_part(const Settings& settings, std::size_t part) {
   const std::string key = path_of_part(part, "mesh");
-  Surface surface = with_context(settings, key.c_str(),
-                                 [&] { return read_body_mesh(settings.bodies[part].body); });
+  Surface surface = with_context(
+      settings, key.c_str(), [&] { return read_body_mesh(settings.bodies[part].body, settings); });
   if (!surface.closed())
     throw bad_input(settings.place(key), "one of several bodies has holes in its mesh",
                     "set close_holes: true for it");
@@ -113,13 +118,14 @@ std::vector<Corners> corners_of(const Triangles& surface, std::size_t first, std
 }  // namespace
 
 SurfaceLook look_of_mesh(const Settings& settings, const Triangles& surface) {
+  if (settings.meshes.contains(settings.body.mesh)) return {};
   return look_of(settings.body, surface, formats_of_io);
 }
 
 Surface read_mesh(const Settings& settings) {
   std::vector<Surface> parts;
   parts.push_back(
-      with_context(settings, "body.mesh", [&] { return read_body_mesh(settings.body); }));
+      with_context(settings, "body.mesh", [&] { return read_body_mesh(settings.body, settings); }));
   for (std::size_t part = 0; part < settings.bodies.size(); ++part)
     parts.push_back(read_part(settings, part));
   return joined(std::move(parts));
@@ -216,17 +222,65 @@ std::vector<std::string> fill_warnings(const BodyFile& body) {
   return warnings;
 }
 
+namespace {
+
+std::string file_name_of(const std::string& mesh) {
+  std::string name = std::filesystem::path(mesh).stem().string();
+  for (char& letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
+  return name;
+}
+
+/// The bytes of a mesh file.
+std::string bytes_of(const Settings& settings, const std::string& mesh, const std::string& key) {
+  const auto held = settings.meshes.find(mesh);
+  if (held != settings.meshes.end()) return ply_text(*held->second);
+  return with_context(settings, key.c_str(), [&] { return read_file(mesh, largest_mesh); });
+}
+
+/// Calls visit(mesh) for every mesh that a scene names.
+template <class Visit>
+void for_each_mesh(Settings& scene, const Visit& visit) {
+  visit(scene.body.mesh);
+  for (PartOptions& part : scene.bodies) visit(part.body.mesh);
+  for (LocalMaterialSettings& material : scene.materials) visit(material.part.mesh);
+  for (ObstacleSettings& obstacle : scene.world.obstacles) visit(obstacle.mesh);
+}
+
+}  // namespace
+
+Settings with_mesh_files(Settings scene, const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  std::map<std::string, std::shared_ptr<const PolygonSoup>> meshes;
+  for (const auto& [name, soup] : scene.meshes) {
+    std::string stem = file_name_of(name);
+    while (meshes.contains((folder / stem).string() + ".ply")) stem += '_';
+    files[name] = (folder / stem).string() + ".ply";
+    meshes[files[name]] = soup;
+  }
+  for_each_mesh(scene, [&](std::string& mesh) {
+    if (const auto file = files.find(mesh); file != files.end()) mesh = file->second;
+  });
+  scene.meshes = std::move(meshes);
+  return scene;
+}
+
+void write_mesh_files(const Settings& scene) {
+  for (const auto& [path, soup] : scene.meshes) {
+    create_folder(std::filesystem::path(path).parent_path());
+    write_file(path, ply_text(*soup));
+  }
+}
+
 std::string origin_of(const Settings& settings) {
   Hash hash;
-  hash.add(with_context(settings, "body.mesh",
-                        [&] { return read_file(settings.body.mesh, largest_mesh); }));
+  hash.add(bytes_of(settings, settings.body.mesh, "body.mesh"));
   for (const auto& field : settings_table())
     if ((field.section == "body" && field.name != "mesh") || field.name == "density")
       hash.add(scene_text(field.get(settings), "") + '\n');
   for (std::size_t part = 0; part < settings.bodies.size(); ++part) {
     const PartOptions& options = settings.bodies[part];
-    hash.add(with_context(settings, path_of_part(part, "mesh").c_str(),
-                          [&] { return read_file(options.body.mesh, largest_mesh); }));
+    hash.add(bytes_of(settings, options.body.mesh, path_of_part(part, "mesh")));
     for (const auto& field : part_fields())
       if (field.name != "mesh") hash.add(scene_text(field.get(options), "") + '\n');
     if (options.young_modulus) hash.add(number_text(settings.material.young_modulus));

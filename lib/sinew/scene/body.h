@@ -28,6 +28,8 @@ std::string mesh_formats();
 /// Reads body.mesh with the options of the section body. Throws Error (bad input) that names the
 /// file.
 Surface read_body_mesh(const BodyOptions& body);
+/// The same in a scene, which may hold the polygons itself (Settings::meshes).
+Surface read_body_mesh(const BodyOptions& body, const Settings& scene);
 
 /// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
 bool is_scene(const std::filesystem::path& path);
@@ -64,6 +66,12 @@ BodyFile body_file(Filling filling, const std::string& origin = "");
 
 /// Warnings of the filling that body.vtu keeps.
 std::vector<std::string> fill_warnings(const BodyFile& body);
+
+/// The scene with the paths of files in `folder` for polygons that it holds, and still with these.
+Settings with_mesh_files(Settings scene, const std::filesystem::path& folder);
+/// Writes the polygons that a scene holds to the files that they are named after. Throws not
+/// written.
+void write_mesh_files(const Settings& scene);
 
 /// A text that is equal for the same mesh file filled with the same settings.
 std::string origin_of(const Settings& settings);

@@ -12,6 +12,7 @@
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
+#include <sinew/material/laws.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/rig/motion.h>
 #include <sinew/world/world.h>
@@ -257,8 +258,7 @@ void warn_of_contacts(const Prepared& prepared, Warnings& warnings) {
   const NeighborLists& lists = shared->nearest;
   warn_of_few_layers(body, lists, warnings);
   warn_of_gaps(body, prepared.surface, lists, warnings);
-  const bool sticks =
-      body.material.model == MaterialModel::paper && body.material.cohesion == Cohesion::all;
+  const bool sticks = !law_of(body.material).has_memory;
   if (sticks && !prepared.motion.tracks.empty()) warn_of_meeting_limbs(prepared, lists, warnings);
 }
 

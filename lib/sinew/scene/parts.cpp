@@ -13,6 +13,7 @@
 #include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
 #include <sinew/world/following_points.h>
+#include <sinew/world/loads.h>
 
 namespace sinew {
 namespace {
@@ -32,8 +33,8 @@ Winding inside_of(const Settings& settings, const std::string& mesh, const std::
   file.mesh = mesh;
   file.wrap.reset();
   file.close_holes = false;
-  const Surface surface =
-      with_context(settings, (path + ".mesh").c_str(), [&] { return read_body_mesh(file); });
+  const Surface surface = with_context(settings, (path + ".mesh").c_str(),
+                                       [&] { return read_body_mesh(file, settings); });
   if (!surface.closed())
     throw bad_input(settings.place(path + ".mesh"), "the mesh of a part is open",
                     "close its holes, lest it is unknown which particles lie in it");
@@ -243,7 +244,7 @@ class LocalMaterials {
 
  private:
   void set_volumes() {
-    if (body_.material.model != MaterialModel::bonded_volume) return;
+    if (!keeps_volume(body_.material.model)) return;
     for (std::size_t i = 0; i < poisson_.size(); ++i)
       body_.local.volume.push_back(
           local_volume_stiffness(body_.material, value_at(body_.stiffness, i, 1), poisson_[i]));

@@ -137,11 +137,12 @@ LocalMaterial local_material(const BodyFile& body) {
 }
 
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
-               const Particles& particles, LocalMaterial local) {
+               const Particles& particles, LocalMaterial local, const ForceLaw* law) {
   Body body;
   body.rest = positions_of(particles);
   body.skeleton = std::move(skeleton);
   body.material = material_of(settings, particles);
+  body.material.law = law;
   body.neighbors = neighbors_of(body);
   body.binding = bind_scene(settings, files, body.skeleton, body.rest, body.neighbors->nearest,
                             particles.radius);
@@ -162,7 +163,7 @@ namespace {
 /// Packings that are no lattice rest on bonds of the lengths that they happen to have.
 void check_packing(const Settings& settings) {
   if (is_lattice(settings.body.packing)) return;
-  if (settings.material.model == MaterialModel::paper)
+  if (!has_bonds(settings.material.model))
     throw bad_input(settings.place("body.packing"),
                     "the paper's forces keep particles 2 radii apart, as only closest packings are",
                     "set material.model to bonded or bonded_volume, or body.packing to fcc");
@@ -194,11 +195,11 @@ void set_groups(Prepared& prepared) {
 }
 
 /// Binds the particles to the bones, in their world.
-void bind(const SceneFiles& files, Prepared& prepared) {
+void bind(const SceneFiles& files, const ForceLaw* law, Prepared& prepared) {
   const Settings& settings = prepared.settings;
   SceneRig rig = rig_of(settings, files);
   prepared.body = make_body(settings, files, std::move(rig.skeleton), prepared.filled.particles,
-                            local_material(prepared.filled));
+                            local_material(prepared.filled), law);
   SceneWorld around = world_of(settings, files, prepared.body, prepared.filled.component);
   prepared.body.world = std::move(around.world);
   prepared.obstacles = std::move(around.obstacles);
@@ -262,7 +263,7 @@ Prepared prepare(Scene scene) {
   }
   prepared.seconds_filling = watch.lap();
   prepared.frames = frame_times(settings);
-  bind(files, prepared);
+  bind(files, scene.law, prepared);
   plan(prepared);
   complete(prepared.body, prepared.filled);
   prepared.seconds_binding = watch.lap();

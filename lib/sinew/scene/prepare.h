@@ -43,9 +43,10 @@ struct LocalMaterial {
 };
 LocalMaterial local_material(const BodyFile& body);
 
-/// The particles on the bones, without a world. Errors name the scene's line.
+/// The particles on the bones, without a world. `law`: as Material::law. Errors name the scene's
+/// line.
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
-               const Particles& particles, LocalMaterial local = {});
+               const Particles& particles, LocalMaterial local = {}, const ForceLaw* law = nullptr);
 
 /// What is prepared.
 struct Scene {
@@ -55,6 +56,9 @@ struct Scene {
   /// Whether the surface of the body is read, which pictures, loads and pressures need; always
   /// where its mesh is filled.
   bool with_surface = true;
+  /// In place of the law of material.model, which must have bonds where it has; see Material::law.
+  /// Runs do not write it: whoever measures their files takes the model's.
+  const ForceLaw* law = nullptr;
 };
 
 /// A scene filled, bound and ready to be stepped.

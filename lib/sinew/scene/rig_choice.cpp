@@ -191,7 +191,8 @@ Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
   fit_if_better(surface, skeleton, settings, placing);
   const bool turned = settings.body.up != placing.mesh.up;
   settings.body.up = placing.mesh.up, settings.body.forward = placing.mesh.forward;
-  if (turned) surface = read_body_mesh(settings.body), choices.axes = "the bones of the rig lie so";
+  if (turned)
+    surface = read_body_mesh(settings.body, settings), choices.axes = "the bones of the rig lie so";
   choices.bones = std::to_string(skeleton.size()) + " bones of the rig, " +
                   three_digits(std::round(100 * placing.share)) + " % of them inside the mesh";
   if (settings.skeleton.fit == Fit::mesh) choices.bones += ", where skeleton.fit brings them";

@@ -48,7 +48,7 @@ Surface read_obstacle(const Settings& settings, std::size_t index) {
   file.unit = settings.body.unit;
   file.scale = settings.body.scale;
   const std::string key = "world.obstacles[" + std::to_string(index) + "].mesh";
-  return with_context(settings, key.c_str(), [&] { return read_body_mesh(file); });
+  return with_context(settings, key.c_str(), [&] { return read_body_mesh(file, settings); });
 }
 
 }  // namespace

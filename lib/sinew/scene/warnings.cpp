@@ -290,7 +290,7 @@ void warn_of_idle_loads(const World* world, Warnings& warnings) {
 
 std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed) {
   Warnings warnings = prepared.file_warnings;
-  if (prepared.body.material.model == MaterialModel::paper)
+  if (!law_of(prepared.body.material).has_bonds)
     warn_of_material(prepared.body.material.pair, warnings);
   warn_of_step(prepared.steps, warnings);
   warn_of_speed(bone_speed, warnings);

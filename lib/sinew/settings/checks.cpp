@@ -39,7 +39,7 @@ Place place_of(const Settings& settings, const char* first, const char* second) 
 void check_isotropy(const Settings& settings) {
   const MaterialOptions& material = settings.material;
   if (material.isotropic.value_or(false)) {
-    if (material.model == MaterialModel::paper)
+    if (!has_bonds(material.model))
       throw bad_input(settings.place("material.isotropic"),
                       "the paper's model has no bonds that could make it isotropic",
                       "set material.model to bonded or bonded_volume, or remove it");
@@ -48,8 +48,7 @@ void check_isotropy(const Settings& settings) {
                       "the hcp packing cannot be made isotropic",
                       "set body.packing to fcc, or material.isotropic to false");
   }
-  if (material.model == MaterialModel::bonded_volume &&
-      !is_isotropic(material, settings.body.packing) &&
+  if (keeps_volume(material.model) && !is_isotropic(material, settings.body.packing) &&
       (material.poisson_ratio < 0.26 || material.poisson_ratio > 0.45))
     throw bad_input(settings.place("material.poisson_ratio"),
                     "twelve bonds a particle reach Poisson's ratios from 0.26 to 0.45, not " +
@@ -73,11 +72,11 @@ void check_local_material(const Settings& settings, std::size_t index) {
   const LocalMaterialSettings& material = settings.materials[index];
   const std::string path = "materials[" + std::to_string(index) + "]";
   if (material.is_elastic()) check_local_modulus(settings, path, "parts of a body");
-  if (material.poisson_ratio && settings.material.model != MaterialModel::bonded_volume)
+  if (material.poisson_ratio && !keeps_volume(settings.material.model))
     throw bad_input(settings.place(path + ".poisson_ratio"),
                     "Poisson's ratio of bonds alone is 1/4, whatever they are of",
                     "set material.model to bonded_volume, or remove it");
-  if (material.has_strength() && settings.material.model == MaterialModel::paper)
+  if (material.has_strength() && !has_bonds(settings.material.model))
     throw bad_input(
         settings.place(path),
         "material '" + material.name + "' has a strength of bonds, and the paper's model has none",
@@ -97,7 +96,7 @@ void check_relaxation(const Settings& settings) {
   const auto& times = settings.material.relaxation_times;
   if (!shares && !times) return;
   const Place place = place_of(settings, "material.relaxation_shares", "material.relaxation_times");
-  if (settings.material.model == MaterialModel::paper)
+  if (!has_bonds(settings.material.model))
     throw bad_input(place, "the branches that relax are of bonds, and the paper's model has none",
                     "set material.model to bonded or bonded_volume, or remove them");
   const std::size_t count = shares ? shares->size() : 0;
@@ -125,23 +124,23 @@ void check_material(const Settings& settings) {
                     "attraction would end at b = " + number_text(material.b) +
                         " radii before it begins at a = " + number_text(material.a),
                     "give an a below b");
-  const bool has_bonds = material.model != MaterialModel::paper;
+  const bool bonded = has_bonds(material.model);
   if (material.breaking_strain && material.fracture_energy)
     throw bad_input(place_of(settings, "material.breaking_strain", "material.fracture_energy"),
                     "material.fracture_energy sets the breaking strain, which is also given",
                     "remove one of the two");
   for (const char* key :
        {"material.breaking_strain", "material.fracture_energy", "material.yield_strain"})
-    if (is_given(settings, key) && !has_bonds)
+    if (is_given(settings, key) && !bonded)
       throw bad_input(settings.place(key),
                       std::string(key) + " is of bonds, and the paper's model has none",
                       "set material.model to bonded or bonded_volume, or remove it");
   check_isotropy(settings);
-  if (material.cohesion != Cohesion::all && has_bonds)
+  if (material.cohesion != Cohesion::all && bonded)
     throw bad_input(settings.place("material.cohesion"),
                     "bonded models attract only through their bonds",
                     "remove material.cohesion, or set material.model to paper");
-  if (material.friction > 0 && !has_bonds && material.cohesion == Cohesion::all)
+  if (material.friction > 0 && !bonded && material.cohesion == Cohesion::all)
     throw bad_input(settings.place("material.friction"),
                     "parts that touch attract each other, and do not slide",
                     "set material.cohesion to initial_neighbors or material.model to bonded, or "
@@ -275,7 +274,7 @@ void apply_preset(Settings& settings) {
   if (free("material.poisson_ratio")) material.poisson_ratio = preset->poisson_ratio;
   if (free("material.damping_ratio")) material.damping_ratio = preset->damping_ratio;
   if (preset->yield_strain && free("material.model")) material.model = MaterialModel::bonded;
-  if (material.model != MaterialModel::paper && free("material.yield_strain"))
+  if (has_bonds(material.model) && free("material.yield_strain"))
     material.yield_strain = preset->yield_strain;
 }
 

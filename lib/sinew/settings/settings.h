@@ -7,12 +7,14 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <sinew/core/error.h>
 #include <sinew/core/options.h>
+#include <sinew/core/triangles.h>
 
 namespace sinew {
 
@@ -223,6 +225,9 @@ struct Settings {
   SolverSettings solver;
   HierarchySettings hierarchy;
   OutputSettings output;
+
+  /// Polygons in place of files: by what body.mesh and the like give instead of a path.
+  std::map<std::string, std::shared_ptr<const PolygonSoup>> meshes;
 
   /// Where each value was read, by its path: "body.mesh", "skeleton.bones[1].parent".
   std::map<std::string, Place, std::less<>> places;

@@ -85,6 +85,12 @@ std::vector<Field<PartOptions>> make_part() {
   return rows;
 }
 
+std::vector<std::string_view> names_of_models() {
+  std::vector<std::string_view> names;
+  for (const MaterialModelRow& model : material_models) names.push_back(model.name);
+  return names;
+}
+
 std::vector<Field<Settings>> make_material() {
   using S = Settings;
   return {
@@ -93,7 +99,7 @@ std::vector<Field<Settings>> make_material() {
                 "named material: sets density, young_modulus, poisson_ratio and damping_ratio "
                 "where the scene does not"),
       choice<S>(
-          "material", "model", SINEW_AT(S, material.model), {"paper", "bonded", "bonded_volume"},
+          "material", "model", SINEW_AT(S, material.model), names_of_models(),
           "paper: Komiya and Tokoi's, has no fixed bonds and flows under large bending; bonded: "
           "keeps its bonds and returns to its shape; bonded_volume: also preserves its volume"),
       choice<S>("material", "cohesion", SINEW_AT(S, material.cohesion),

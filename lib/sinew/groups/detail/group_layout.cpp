@@ -293,8 +293,7 @@ void GroupLayout<Real>::activate(BlockState<Real>& state, const Units& units) {
   for (const std::uint32_t b : active_) role_[b] = kernel::idle;
   active_.clear();
   const Material& material = body_->material;
-  const double range = (law_of(material).has_memory ? 2 * material.pair.r : material.pair.b) /
-                       units.length * (1 + beyond_range);
+  const double range = law_of(material).range(material) / units.length * (1 + beyond_range);
   for (const std::uint32_t piece : watching_)
     for (const Watched& one : watched_[piece]) {
       if (!active_.empty() && active_.back() == one.block) continue;

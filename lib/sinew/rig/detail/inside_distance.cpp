@@ -100,8 +100,8 @@ InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double ra
 }
 
 InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double radius,
-                         const NeighborLists& nearest) {
-  InsidePaths paths{links_of(nearest), rest, {}, {}};
+                         const NeighborLists& touching) {
+  InsidePaths paths{links_of(touching), rest, {}, {}};
   std::vector<double> distance(rest.size());
   paths.straight_nearest.resize(rest.size());
   parallel_for(rest.size(), particles_per_ray_task, [&](std::size_t begin, std::size_t end) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include <sinew/core/parallel.h>
@@ -27,6 +28,18 @@ kernel::PairLaw pair_law_of(const Material& material) {
   return bonds_change(material) ? kernel::changing_springs : kernel::springs;
 }
 
+/// Those that the law brings, or the kernel's own.
+template <class Real>
+kernel::LawFunctions<Real> work_of(const Material& material,
+                                   const kernel::Functions<Real>& kernel) {
+  const kernel::OwnLaw* own = law_of(material).kernel;
+  if (own == nullptr) return kernel.law[pair_law_of(material)];
+  if constexpr (std::is_same_v<Real, double>)
+    return own->in_double;
+  else
+    return own->in_single;
+}
+
 template <class Real>
 ParticleLayout<Real> taken(const Body& body, Particles& particles, double step) {
   ParticleLayout<Real> layout(body, particles, step);
@@ -45,6 +58,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       extent_(bounds(body_->rest).diagonal().norm()),
       kernel_(kernel::functions_of<Real>(instructions)),
       law_(pair_law_of(body_->material)),
+      work_(work_of<Real>(body_->material, kernel_)),
       layout_(taken<Real>(*body_, particles, stepping.step)),
       bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
@@ -169,8 +183,7 @@ void ListStepper<Real>::find_deformation(const kernel::Step<Real>& now) {
   auto counting = now;
   // Within groups, the neighbors of idle blocks remain.
   if (!std::exchange(counted_, true)) counting.grouped = {};
-  on_all_pieces(
-      [&](std::size_t first, std::size_t last) { kernel_.count[law_](counting, first, last); });
+  on_all_pieces([&](std::size_t first, std::size_t last) { work_.count(counting, first, last); });
 }
 
 template <class Real>
@@ -183,7 +196,7 @@ ListCounts ListStepper<Real>::counts() const {
 
 template <class Real>
 std::vector<std::int32_t> ListStepper<Real>::broken_bonds() const {
-  const bool bonded = law_ == kernel::springs || law_ == kernel::changing_springs;
+  const bool bonded = is_bonded(law_);
   std::vector<std::int32_t> broken(bonded ? layout_.caller().size() : 0);
   for (std::size_t k = 0; k < broken.size() && !bonds_.broken.empty(); ++k)
     broken[layout_.caller()[k]] = bonds_.broken[k];
@@ -231,7 +244,7 @@ WorldReactions ListStepper<Real>::reactions() const {
 
 template <class Real>
 StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
-  const auto work = kernel_.step[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  const auto work = work_.step[share_.empty() ? kernel::to_the_mean : kernel::pairwise];
   on_all_pieces(
       [&](std::size_t first, std::size_t last) { surroundings_.run(work, now, first, last); });
   move_groups(now);
@@ -399,7 +412,7 @@ Balance ListStepper<Real>::evaluate(const TimedPose& moment, Forces& forces) {
   const auto now = begin(moment, surroundings_.any() ? &of_world : nullptr, true);
   const double newtons =
       mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
-  const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  const auto work = work_.probe[share_.empty() ? kernel::to_the_mean : kernel::pairwise];
   const auto probed = [&](const kernel::Step<Real>& job, std::size_t first, std::size_t last) {
     surroundings_.run(work, job, first, last);
   };

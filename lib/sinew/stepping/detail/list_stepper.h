@@ -92,6 +92,7 @@ class ListStepper final : public Stepper {
   double extent_;  ///< of the body at rest, m
   kernel::Functions<Real> kernel_;
   kernel::PairLaw law_;
+  kernel::LawFunctions<Real> work_;  ///< of the material's law
   ParticleLayout<Real> layout_;
   BoneSlots<Real> slots_;
   BondLists<Real> bonds_;

@@ -4,7 +4,7 @@
 // they may touch; loads, as accelerations that the kernel adds. world/world.h gives the forces.
 //
 //     surroundings.begin(pose, time, state, units, lists, nullptr);  // before a step
-//     surroundings.run(kernel.step[law][damping], step, begin, end);  // on pieces, in parallel
+//     surroundings.run(work.step[damping], step, begin, end);  // on pieces, in parallel
 //     const WorldSums sums = surroundings.sums();                    // after it
 #pragma once
 
