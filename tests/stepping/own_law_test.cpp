@@ -64,14 +64,15 @@ ForceLaw lennard_jones() {
 }
 
 /// A bar whose upper bone stretches by 8 % and bends, from its scene to a moment.
-Simulation bent(const ForceLaw* law, NeighborSearch search) {
+Simulation bent(const ForceLaw* law, NeighborSearch search,
+                Precision precision = Precision::binary64) {
   Scene scene;
   scene.settings.body.mesh = "bar";
   scene.settings.meshes["bar"] =
       std::make_shared<const PolygonSoup>(shapes::box({-0.05, -0.05, 0}, {0.05, 0.05, 0.3}));
   scene.settings.body.radius = 0.013;
   scene.settings.material.model = MaterialModel::bonded;
-  scene.settings.solver.neighbor_search = search;
+  scene.settings.solver.neighbor_search = search, scene.settings.solver.precision = precision;
   scene.settings.bones = {{"lower", "", Vec3(0, 0, 0), Vec3(0, 0, 0.15)},
                           {"upper", "lower", {}, Vec3(0, 0, 0.3)}};
   scene.settings.tracks = {{"upper", Interpolation::smooth, "xyz", std::vector<KeyDefinition>(2)}};
@@ -94,6 +95,7 @@ TEST(OwnLaw, GivesTheSameOnKernelAndReferenceAndOtherThanSprings) {
   const Points here = positions_by_id(kernel.particles()),
                there = positions_by_id(cells.particles());
   for (std::size_t i = 0; i < here.size(); ++i) ASSERT_LT((here[i] - there[i]).norm(), 1e-10) << i;
+  EXPECT_THROW(bent(&law, NeighborSearch::lists, Precision::binary32), Error);  // it has no steps
 }
 
 }  // namespace sinew::own_law_test

@@ -16,7 +16,7 @@ namespace sinew {
 /// Neighbors at rest within this are bonded where second neighbors are.
 inline constexpr double second_neighbor_range = 3.1;  // in radii: the third are at 3.46
 
-/// By particle id, in both directions, ascending.
+/// Neighbors by particle id, in both directions, ascending.
 struct RestNeighbors {
   NeighborLists nearest;  ///< closer than rest_neighbor_range()
   /// Nearest and second ones, closer than second_neighbor_range; empty: second ones do not count.

@@ -330,7 +330,15 @@ struct LawFunctions {
 /// A law that a program brings, of bonds that keep their lengths: see ForceLaw::kernel.
 struct OwnLaw {
   LawFunctions<double> in_double;
-  LawFunctions<float> in_single;
+  LawFunctions<float> in_single;  ///< or none
+
+  template <class Real>
+  const LawFunctions<Real>& in() const {
+    if constexpr (sizeof(Real) == sizeof(double))
+      return in_double;
+    else
+      return in_single;
+  }
 };
 
 /// The functions of one instruction set.

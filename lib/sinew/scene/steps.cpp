@@ -105,11 +105,11 @@ class Speedometer {
       last_[b] = ends;
     }
     time_ = time;
-    return std::max(fastest, support_reactions(time, pose));
+    return std::max(fastest, speed_of_supports(time, pose));
   }
 
  private:
-  double support_reactions(double time, const Pose& pose) const {
+  double speed_of_supports(double time, const Pose& pose) const {
     if (!world_) return 0;
     double fastest = 0;
     for (const Support& support : world_->supports)

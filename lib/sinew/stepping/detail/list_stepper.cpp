@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include <sinew/core/parallel.h>
@@ -11,6 +10,7 @@
 #include <sinew/lists/particle_order.h>
 #include <sinew/material/laws.h>
 #include <sinew/stepping/detail/force_probe.h>
+#include <sinew/stepping/detail/law_functions.h>
 
 namespace sinew {
 namespace {
@@ -20,25 +20,6 @@ constexpr double column_edge = 1.2, max_growth = 1.3;
 // Checks go by the step count alone, so that a resumed run sorts when an uninterrupted one does:
 // the last bits of sums depend on the order. Their lists cost about one step in a hundred.
 constexpr std::int64_t steps_between_order_checks = 1024;
-
-kernel::PairLaw pair_law_of(const Material& material) {
-  const ForceLaw& law = law_of(material);
-  if (!law.has_memory) return kernel::between_all;
-  if (!law.has_bonds) return kernel::among_neighbors;
-  return bonds_change(material) ? kernel::changing_springs : kernel::springs;
-}
-
-/// Those that the law brings, or the kernel's own.
-template <class Real>
-kernel::LawFunctions<Real> work_of(const Material& material,
-                                   const kernel::Functions<Real>& kernel) {
-  const kernel::OwnLaw* own = law_of(material).kernel;
-  if (own == nullptr) return kernel.law[pair_law_of(material)];
-  if constexpr (std::is_same_v<Real, double>)
-    return own->in_double;
-  else
-    return own->in_single;
-}
 
 template <class Real>
 ParticleLayout<Real> taken(const Body& body, Particles& particles, double step) {
@@ -57,8 +38,8 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       mass_(particles.mass),
       extent_(bounds(body_->rest).diagonal().norm()),
       kernel_(kernel::functions_of<Real>(instructions)),
-      law_(pair_law_of(body_->material)),
-      work_(work_of<Real>(body_->material, kernel_)),
+      law_(kernel_law(body_->material)),
+      work_(law_functions(body_->material, kernel_)),
       layout_(taken<Real>(*body_, particles, stepping.step)),
       bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
