@@ -8,7 +8,6 @@
 #include <sinew/scene/prepare.h>
 
 #include "mesh/shapes.h"
-
 namespace sinew::kernel {
 
 inline constexpr PairLaw lennard_jones{pair_laws};
