@@ -65,7 +65,7 @@ TEST(RandomPacking, HasOneParticlePerVolumeStrictlyInside) {
   }
 }
 
-/// The share of particles in shells of the body's volume: as many near the surface as inside.
+/// The fraction of particles in shells of the body's volume: as many near the surface as inside.
 TEST(RandomPacking, IsAsDenseAtTheSurfaceAsInside) {
   const Particles particles = pack(ball(), options_of(Packing::random, 0.03)).particles;
   std::vector<double> depths;
@@ -81,14 +81,14 @@ TEST(RandomPacking, DependsOnItsSeedAndNotOnThreads) {
     Filling filling;
     with_threads(threads, [&] {
       PackOptions options = options_of(Packing::random, 0.08, seed);
-      options.shares = true;
+      options.volume_shares = true;
       filling = pack(bar(), options);
     });
     return filling;
   };
   const Filling one = packed(1, 1), two = packed(1, 3), other = packed(2, 1);
   EXPECT_EQ(state_hash(one.particles), state_hash(two.particles));
-  EXPECT_EQ(one.share, two.share);
+  EXPECT_EQ(one.volume_share, two.volume_share);
   EXPECT_NE(state_hash(one.particles), state_hash(other.particles));
 }
 
@@ -125,12 +125,12 @@ TEST(RandomPacking, FillsOpenSurfacesLayersAndKeepsAClearance) {
     ASSERT_LT(place.norm(), 0.95);
 }
 
-TEST(RandomPacking, SharesAreTheVolume) {
+TEST(RandomPacking, VolumeSharesAreTheVolume) {
   PackOptions options = options_of(Packing::random, 0.06);
-  options.shares = true;
+  options.volume_shares = true;
   const Filling filling = pack(bar(), options);
   double sum = 0;
-  for (const double share : filling.share) sum += share;
+  for (const double volume_share : filling.volume_share) sum += volume_share;
   EXPECT_NEAR(sum * volume_per_particle(0.06) / 2.4, 1, 0.01);
 }
 

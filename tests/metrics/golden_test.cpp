@@ -97,10 +97,10 @@ struct Measured {
   Playback playback;
 };
 
-Measured measured(double strength, double share) {
+Measured measured(double strength, double fraction) {
   Measured all{rest_body(lively_input()), {}, {}, {}, {}, {}, {}};
   all.states = lively_run(all.body, strength);
-  all.playback = plan_playback(all.body, all.states.size(), share);
+  all.playback = plan_playback(all.body, all.states.size(), fraction);
   std::vector<std::vector<RigidFrame>> poses;
   std::vector<std::vector<std::int64_t>> worst;
   std::vector<double> times;

@@ -131,9 +131,9 @@ TEST(Loads, TurnWithTheSurfaceOnlyIfTheyArePressures) {
         skin.points[face[2]].z() == z)
       top.faces.push_back(face);
   const Load pressure = pressure_load("press", top, 1000, rest, r);
-  const AreaShares shares = area_shares(top, rest, r);
+  const AreaWeights weights = area_weights(top, rest, r);
   const Load traction =
-      force_load("pull", shares.particles, shares.shares, {0, 0, -1000 * shares.area}, rest);
+      force_load("pull", weights.particles, weights.weights, {0, 0, -1000 * weights.area}, rest);
   const Mat3 turn = test::turned({0, 1, 0}, 90);
   const Points now = test::affine(rest, turn);
   const double side = bounds(skin.points).sizes().x(), area = side * side;
@@ -318,7 +318,7 @@ TEST(Loads, BadOnesAreRefused) {
       },
       {"load 'pull' acts on nothing"});
   Load load = force_load("pull", {1}, {2}, {0, 0, 1}, rest);
-  EXPECT_EQ(load.share[0], 1);
+  EXPECT_EQ(load.weight[0], 1);
   load.scale = {{1, 0}, {0, 1}};
   test::expect_bad_input([&] { check_load(load); }, {"load 'pull' has a key at 0 s"});
   load.scale = {};

@@ -51,7 +51,7 @@ World busy_world(const Points& rest) {
   muscle.strength = 2000;
   muscle.direction = {1, 1, 0};
   muscle.activation = {{0, 0.1}, {0, 1}};
-  muscle.shares = shares_in({SphereShape{{0, 0, 0}, 3 * r}, 2 * r}, rest);
+  muscle.weights = weights_in({SphereShape{{0, 0, 0}, 3 * r}, 2 * r}, rest);
   world.muscles = make_muscles(rest, r, {muscle});
   return world;
 }

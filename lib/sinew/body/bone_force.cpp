@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-// Closer to the bone than this share of a radius, a particle has no direction from it.
+// Closer to the bone than this fraction of a radius, a particle has no direction from it.
 constexpr double on_axis = 1e-6;
 
 struct Spring {

@@ -150,7 +150,7 @@ double Solid::free_length(bool nearest, std::uint32_t entry) const {
   const Bonds& bonds = nearest ? bonds_.nearest : bonds_.second;
   double length = bonds.rest_length[entry];
   for (const Branches::One& one : (nearest ? branches_.nearest : branches_.second).all)
-    length += one.share * one.stretch[entry];
+    length += one.modulus_ratio * one.stretch[entry];
   return length;
 }
 

@@ -47,8 +47,8 @@ std::vector<bool> moving_joints(const Skeleton& skeleton, const Motion& motion, 
   std::vector<bool> moves(skeleton.size(), false);
   PoseCursor cursor(skeleton, motion);
   for (int moment = 0; moment <= moments; ++moment) {
-    const double share = static_cast<double>(moment) / moments;
-    const Pose& now = cursor.at(span.begin + share * (span.end - span.begin));
+    const double fraction = static_cast<double>(moment) / moments;
+    const Pose& now = cursor.at(span.begin + fraction * (span.end - span.begin));
     for (std::size_t b = 0; b < moves.size(); ++b)
       moves[b] = moves[b] || now[b].stretch != 1 ||
                  differ(relative(skeleton, before, b), relative(skeleton, now, b),

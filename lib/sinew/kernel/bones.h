@@ -54,16 +54,16 @@ SINEW_INLINE Pull<L> radial_pull(typename L::V k, const Triple<L>& at, const Hel
   return pull;
 }
 
-/// The taper of the twist near the axis, s = 2 |rho| / rho0 < 1, in lanes that close to it: `share`
-/// is s, and `inward` the force along rho, by rho^2, that the slope of s adds; `twice`: 2 k rho0^2
-/// G.
+/// The taper of the twist near the axis, s = 2 |rho| / rho0 < 1, in lanes that close to it:
+/// `narrowing` is s, and `inward` the force along rho, by rho^2, that the slope of s adds; `twice`:
+/// 2 k rho0^2 G.
 template <class L>
 SINEW_INLINE void taper(typename L::V rho2, typename L::V rho02, typename L::V twice,
-                        typename L::V& share, typename L::V& inward) {
+                        typename L::V& narrowing, typename L::V& inward) {
   const auto tight = L::less(L::all(4) * rho2, rho02);
   if (!L::any(tight)) return;
   const typename L::V s2 = L::all(4) * rho2 / rho02;
-  share = L::pick(tight, L::root(s2), L::all(1));
+  narrowing = L::pick(tight, L::root(s2), L::all(1));
   inward = L::keep(tight, twice * s2 / rho2);
 }
 
@@ -95,15 +95,16 @@ SINEW_INLINE Pull<L> twist_pull(typename L::V k, const Triple<L>& at, const Held
   V slope = alpha, twice = alpha * alpha;
   fade_twist<L>(alpha, slope, twice);
   const V scale = k * rho02, drive = scale * slope;
-  V inward = L::all(0), share = L::all(1);
-  taper<L>(rho2, rho02, scale * twice, share, inward);
+  V inward = L::all(0), narrowing = L::all(1);
+  taper<L>(rho2, rho02, scale * twice, narrowing, inward);
   const auto turns = L::less(L::all(0), rho2 * rho02);
   const V per_rho2 = L::all(1) / rho2;
-  const V around = L::keep(turns, share * share * drive * per_rho2), in = L::keep(turns, inward);
+  const V around = L::keep(turns, narrowing * narrowing * drive * per_rho2),
+          in = L::keep(turns, inward);
   Pull<L> pull{{L::all(0), L::less_fused(in, at.y, around * at.z),
                 L::less_fused(in, at.z, (L::all(0) - around) * at.y)},
                L::all(0)};
-  if constexpr (energy) pull.energy = L::keep(turns, scale * twice * (share * share));
+  if constexpr (energy) pull.energy = L::keep(turns, scale * twice * (narrowing * narrowing));
   return pull;
 }
 
@@ -204,13 +205,13 @@ SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone, const
 }
 
 template <class L>
-SINEW_INLINE void add(const BoneSums<L>& pull, const Shares<L>& shares, BoneSums<L>& sums) {
-  sums.spring = fused<L>(shares.weight, pull.spring, sums.spring);
-  sums.damping = fused<L>(shares.weight, pull.damping, sums.damping);
-  sums.power = L::fused(shares.weight, pull.power, sums.power);
-  sums.damping_power = L::fused(shares.weight, pull.damping_power, sums.damping_power);
-  sums.energy = L::fused(shares.weight, pull.energy, sums.energy);
-  sums.carried = fused<L>(shares.lead, pull.carried, sums.carried);
+SINEW_INLINE void add(const BoneSums<L>& pull, const Weights<L>& weights, BoneSums<L>& sums) {
+  sums.spring = fused<L>(weights.weight, pull.spring, sums.spring);
+  sums.damping = fused<L>(weights.weight, pull.damping, sums.damping);
+  sums.power = L::fused(weights.weight, pull.power, sums.power);
+  sums.damping_power = L::fused(weights.weight, pull.damping_power, sums.damping_power);
+  sums.energy = L::fused(weights.weight, pull.energy, sums.energy);
+  sums.carried = fused<L>(weights.lead, pull.carried, sums.carried);
 }
 
 /// All bones of a vector. A single bone, by far the most frequent case, needs no weights.
@@ -223,14 +224,14 @@ SINEW_INLINE BoneSums<L> bone_sums(const Step<typename L::Real>& step, std::size
     return whole_pull<L, energy>(holds.bones[holds.slots[s].bone], held_by<L>(holds, s, lane), here,
                                  velocity);
   };
-  if (end - begin == 1 && holds.slots[begin].shares < 0) [[likely]]
+  if (end - begin == 1 && holds.slots[begin].weights < 0) [[likely]]
     return pull_of(begin);
   BoneSums<L> sums;
   typename L::V led = L::all(0);
   for (std::uint32_t s = begin; s != end; ++s) {
-    const Shares<L> shares = shares_of<L>(holds, holds.slots[s], lane);
-    add<L>(pull_of(s), shares, sums);
-    led = led + shares.lead;
+    const Weights<L> weights = weights_of<L>(holds, holds.slots[s], lane);
+    add<L>(pull_of(s), weights, sums);
+    led = led + weights.lead;
   }
   sums.carried = fused<L>(L::all(1) - led, velocity, sums.carried);
   return sums;

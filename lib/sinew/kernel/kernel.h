@@ -64,7 +64,7 @@ struct Lists {
 enum PairLaw { between_all, among_neighbors, springs, changing_springs, pair_laws };
 
 /// Eq. 2 towards the mean velocity of the neighbors; or pair by pair, with the mean of both
-/// particles' shares.
+/// particles' inverse counts of neighbors.
 enum Damping { to_the_mean, pairwise, dampings };
 
 /// Eq. 1 and eq. 2. A pair force is k (...) times the difference of coordinates, over the distance.
@@ -103,21 +103,21 @@ struct BoneNow {
 /// A bone that holds particles of a block. Its lanes' fields are in `held`, field after field.
 struct Slot {
   std::int32_t bone;
-  std::int32_t shares;  ///< place of its weights, or -1: all lanes are held by this bone alone
+  std::int32_t weights;  ///< place of its weights, or -1: all lanes are held by this bone alone
 };
 
 /// Fields of `held`, in the bone's frame at rest: foot and position along the bone, position across
 /// it (0 for a particle on the axis), distance from the foot.
 enum HeldField { foot, along, across_1, across_2, distance, held_fields };
-/// Fields of `shares`: weight of the bone; 1 where no bone weighs more, else 0.
-enum ShareField { weight, lead, share_fields };
+/// Fields of `weights`: weight of the bone; 1 where no bone weighs more, else 0.
+enum WeightField { weight, lead, weight_fields };
 
 template <class Real>
 struct Holds {
   const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
   const Slot* slots;
-  const Real* held;    ///< slots x held_fields x block
-  const Real* shares;  ///< x share_fields x block
+  const Real* held;     ///< slots x held_fields x block
+  const Real* weights;  ///< x weight_fields x block
   const BoneNow<Real>* bones;
 };
 
@@ -223,7 +223,7 @@ struct Step {
   Holds<Real> holds;
   Law<Real> law;
   std::uint8_t* careful;  ///< by vector: its pairs needed care in the last step; double precision
-  Real* share;            ///< 1 / neighbors, or 0; of pairwise damping
+  Real* inverse_count;    ///< 1 / neighbors, or 0; of pairwise damping
   bool central;           ///< that acts along the pair alone
   Bonds<Real> bonds;      ///< of laws that know neighbors at rest, and of fibers
   Real* inverse[6];       ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
@@ -319,7 +319,7 @@ struct Functions {
   /// Finds the thrusts of volumes and fibers, which must be known everywhere before a step.
   Work<Real> flow;  ///< of bonds that creep
   Work<Real> strain;
-  /// Finds the shares that pairwise damping needs, before a step; by PairLaw.
+  /// Finds Step::inverse_count, which pairwise damping needs, before a step; by PairLaw.
   Work<Real> count[pair_laws];
   /// Advances the blocks of the pieces; by PairLaw and Damping.
   Work<Real> step[pair_laws][dampings];

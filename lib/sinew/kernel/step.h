@@ -387,7 +387,7 @@ void probe_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
       });
 }
 
-/// The shares of pairwise damping.
+/// Finds Step::inverse_count, for pairwise damping.
 template <class L, PairLaw pairs>
 void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   constexpr int size = Traits<typename L::Real>::block;
@@ -400,7 +400,7 @@ void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
       const typename L::V count =
           sums_of<L, pairs, counts, false>(step, law, block, lane, strained).count;
       const auto some = L::less(L::all(0), count);
-      L::store(step.share + static_cast<std::ptrdiff_t>(block) * size + lane,
+      L::store(step.inverse_count + static_cast<std::ptrdiff_t>(block) * size + lane,
                L::keep(some, L::all(1) / L::larger(count, L::all(1))));
     }
   }

@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-// Nearer to the axis than this share of a radius, a particle has no direction across it.
+// Nearer to the axis than this fraction of a radius, a particle has no direction across it.
 constexpr double min_distance = 1e-6;
 
 double place_along(const Bone& bone, const Vec3& point) {
@@ -72,7 +72,7 @@ class Filler {
     count();
     out_.slots.resize(out_.first.back());
     out_.held.resize(out_.first.back() * kernel::held_fields * block);
-    out_.shares.resize(first_share_.back() * kernel::share_fields * block);
+    out_.weights.resize(first_weights_.back() * kernel::weight_fields * block);
     on_all_blocks([&](std::size_t b, const std::vector<int>& bones) { fill(b, bones); });
   }
 
@@ -97,7 +97,7 @@ class Filler {
   }
 
   /// A bone that holds every lane alone needs no weights.
-  bool shares_are_one(std::size_t b, const std::vector<int>& bones) const {
+  bool weights_are_one(std::size_t b, const std::vector<int>& bones) const {
     const auto alone = [&](std::int32_t id) {
       const auto influences = body_.binding.of(id);
       return influences.size() == 1 && static_cast<Real>(influences[0].weight) == 1;
@@ -106,24 +106,24 @@ class Filler {
     return bones.size() == 1 && all.size() == block && std::all_of(all.begin(), all.end(), alone);
   }
 
-  /// Where each block's slots and shares begin.
+  /// Where each block's slots and weights begin.
   void count() {
     out_.first.assign((id_.size() + block - 1) / block + 1, 0);
-    first_share_ = out_.first;
+    first_weights_ = out_.first;
     on_all_blocks([&](std::size_t b, const std::vector<int>& bones) {
       out_.first[b + 1] = static_cast<std::uint32_t>(bones.size());
-      first_share_[b + 1] = shares_are_one(b, bones) ? 0 : out_.first[b + 1];
+      first_weights_[b + 1] = weights_are_one(b, bones) ? 0 : out_.first[b + 1];
     });
-    for (auto* first : {&out_.first, &first_share_})
+    for (auto* first : {&out_.first, &first_weights_})
       std::partial_sum(first->begin(), first->end(), first->begin());
   }
 
   void fill(std::size_t b, const std::vector<int>& bones) {
     const std::size_t begin = out_.first[b];
-    const bool weighted = first_share_[b] < first_share_[b + 1];
+    const bool weighted = first_weights_[b] < first_weights_[b + 1];
     for (std::size_t k = 0; k < bones.size(); ++k)
       out_.slots[begin + k] = {bones[k],
-                               weighted ? static_cast<std::int32_t>(first_share_[b] + k) : -1};
+                               weighted ? static_cast<std::int32_t>(first_weights_[b] + k) : -1};
     const auto all = ids(b);
     for (std::size_t lane = 0; lane < all.size(); ++lane) {
       const auto influences = body_.binding.of(all[lane]);
@@ -133,9 +133,10 @@ class Filler {
         hold(body_, influence, body_.rest[all[lane]], out_.center[influence.bone], units_,
              &out_.held[(begin + k) * kernel::held_fields * block + lane]);
         if (!weighted) continue;
-        Real* shares = &out_.shares[(first_share_[b] + k) * kernel::share_fields * block + lane];
-        shares[kernel::weight * block] = static_cast<Real>(influence.weight);
-        shares[kernel::lead * block] = &influence == influences.data() ? Real(1) : Real(0);
+        Real* weights =
+            &out_.weights[(first_weights_[b] + k) * kernel::weight_fields * block + lane];
+        weights[kernel::weight * block] = static_cast<Real>(influence.weight);
+        weights[kernel::lead * block] = &influence == influences.data() ? Real(1) : Real(0);
       }
     }
   }
@@ -144,7 +145,7 @@ class Filler {
   std::span<const std::int32_t> id_;
   const Units& units_;
   BoneSlots<Real>& out_;
-  std::vector<std::uint32_t> first_share_;  ///< blocks + 1 long
+  std::vector<std::uint32_t> first_weights_;  ///< blocks + 1 long
 };
 
 template <class Real>

@@ -18,7 +18,7 @@ template <class Real>
 struct BoneSlots {
   std::vector<std::uint32_t> first;  ///< blocks + 1 long
   std::vector<kernel::Slot> slots;
-  Lines<Real> held, shares;
+  Lines<Real> held, weights;
 
   /// Origin of each bone's frame, m from the head along the axis: the mean of the particles it
   /// holds, so that few digits are lost far from a head.

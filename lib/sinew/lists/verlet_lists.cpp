@@ -348,7 +348,7 @@ namespace {
 
 constexpr std::size_t parts_at_a_time = 4;
 
-/// Rounding of the kernel's velocity fields, as a share of their speed.
+/// Rounding of the kernel's velocity fields, as a fraction of their speed.
 template <class Real>
 constexpr double rounding = sizeof(Real) == 4 ? 1e-6 : 1e-14;
 

@@ -117,10 +117,10 @@ Mat3 virial_stress(const RestBody& rest, const FrameState& state,
     const double d = std::sqrt(other.squared);
     sum += virial(rest.law.force(d), other.apart, d);
   }
-  const double share = rest.share.empty() ? 1 : rest.share[i];
-  if (!(share > 0)) return Mat3::Constant(not_measured);
+  const double volume_share = rest.volume_share.empty() ? 1 : rest.volume_share[i];
+  if (!(volume_share > 0)) return Mat3::Constant(not_measured);
   const Mat3 passive = sum / (2 * volume_per_particle(rest.radius));
-  const Mat3 stress = (passive + volume_stress(rest, state, i, severed)) / share;
+  const Mat3 stress = (passive + volume_stress(rest, state, i, severed)) / volume_share;
   return state.muscle_stress.empty() ? stress : Mat3(stress + state.muscle_stress[i]);
 }
 

@@ -134,21 +134,21 @@ NeighborLists second_neighbors(const RestShape& shape, double range) {
 }
 
 /// Sums k l^2 over a particle's bonds, over that of one inside, where springs differ in stiffness.
-std::vector<double> stiffness_shares(const RestBody& body, const ForcesOfPairs& law) {
+std::vector<double> volume_shares_by_stiffness(const RestBody& body, const ForcesOfPairs& law) {
   if (!law.factor || !law.second) return {};
   const double k = law.bond(0, 1), second = law.second(0, 1);  // of springs with f = k (l - d)
   const double inside =
       12 * k * 4 * body.radius * body.radius + 6 * second * 8 * body.radius * body.radius;
-  std::vector<double> shares(body.particles(), 0);
+  std::vector<double> volume_shares(body.particles(), 0);
   const auto add = [&](const NeighborLists& lists, double stiffness) {
     for (std::size_t i = 0; i < lists.size(); ++i)
       for (const std::uint32_t j : lists.of(i))
-        shares[i] += law.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
-                     (body.shape.points[i] - body.shape.points[j]).squaredNorm();
+        volume_shares[i] += law.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
+                            (body.shape.points[i] - body.shape.points[j]).squaredNorm();
   };
   add(body.shape.neighbors, k);
   add(body.second, second);
-  return shares;
+  return volume_shares;
 }
 
 }  // namespace
@@ -171,7 +171,7 @@ RestBody rest_body(RestInput input) {
   body.surface = std::move(input.surface);
   body.bones = std::move(input.bones);
   body.radius = input.radius;
-  body.share = stiffness_shares(body, input.law);
+  body.volume_share = volume_shares_by_stiffness(body, input.law);
   body.interaction_range = input.interaction_range;
   body.start = input.start;
   body.law = std::move(input.law);

@@ -75,7 +75,7 @@ struct RestBody {
   std::vector<int> bone_of;    ///< n; -1 for none
   std::vector<double> weight;  ///< n, or empty
   /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
-  std::vector<double> share;
+  std::vector<double> volume_share;
   Slices slices;
   std::vector<Section> sections;
   double radius = 0, interaction_range = 0;  ///< m

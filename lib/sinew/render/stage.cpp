@@ -142,14 +142,14 @@ void Stage::Parts::measure(const Tile& drawn, const Tile& tile, Exposure& exposu
   window->GetZbufferData(0, 0, wide - 1, high - 1, buffer);
   const float* z = buffer->GetPointer(0);
   const auto deep = static_cast<float>(box.sizes().z());
-  const float share = 1.0F / static_cast<float>(times * times);
+  const float weight = 1.0F / static_cast<float>(times * times);
   for (int y = 0; y < times * tile.height; ++y)
     for (int x = 0; x < times * tile.width; ++x) {
       const float part = z[static_cast<std::size_t>(high - 1 - top - y) * wide + left + x];
       if (part >= 1) continue;
       const auto pixel = static_cast<std::size_t>(tile.y + y / times) * shot.width + tile.x +
                          static_cast<std::size_t>(x / times);
-      exposure.coverage[pixel] += share;
+      exposure.coverage[pixel] += weight;
       if (y % times == 0 && x % times == 0) exposure.depth.depth[pixel] = part * deep;
     }
 }

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t particles_per_piece = 4096;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Share of a bone's length that feet of given weights may be beyond its ends. Bones of files share
-// particles around joints, and a foot that stopped at the joint would rotate about it.
+// Fraction of a bone's length that feet of given weights may be beyond its ends. Bones of files
+// share particles around joints, and a foot that stopped at the joint would rotate about it.
 constexpr double beyond_ends = 0.5;
 
 double along(const Bone& bone, const Vec3& point) { return (point - bone.head()).dot(bone.axis()); }
@@ -99,8 +99,8 @@ void choose_nearest(Choice& choice, double particle_volume) {
 std::vector<BoneWeight> weights_of(const Choice& choice, std::size_t i) {
   const auto& given = choice.options.weights;
   if (given && !given->of(i).empty()) return {given->of(i).begin(), given->of(i).end()};
-  return shares_in_zones(choice.zones, choice.nearest[i], choice.rest[i],
-                         [&](int bone) { return choice.distance(i, bone); });
+  return weights_in_zones(choice.zones, choice.nearest[i], choice.rest[i],
+                          [&](int bone) { return choice.distance(i, bone); });
 }
 
 Influence influence_of(const Choice& choice, const BoneWeight& one, const Vec3& point) {

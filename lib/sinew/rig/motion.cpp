@@ -44,7 +44,7 @@ void slow_down(LocalMotion& motion, double speed) {
   motion.stretch_rate *= speed;
 }
 
-/// During the preroll: a share `reached` of `goal`, which grows by `rate` per second.
+/// During the preroll: a fraction `reached` of `goal`, which grows by `rate` per second.
 LocalMotion ramped(const LocalMotion& goal, double reached, double rate) {
   const Vec3 turn = rotation_vector(goal.rotation);
   LocalMotion motion;

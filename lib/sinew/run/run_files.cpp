@@ -220,7 +220,7 @@ void keep_written(RunFiles& run) {
   keep(run.ids, run.body.component);
   if (run.body.bone) keep(run.ids, *run.body.bone);
   if (run.body.weight) keep(run.ids, *run.body.weight);
-  if (run.body.share) keep(run.ids, *run.body.share);
+  if (run.body.volume_share) keep(run.ids, *run.body.volume_share);
   if (run.body.stiffness) keep(run.ids, *run.body.stiffness);
   if (run.body.density) keep(run.ids, *run.body.density);
   if (run.body.volume_stiffness) keep(run.ids, *run.body.volume_stiffness);
@@ -363,7 +363,7 @@ RestInput measured_body(const RunFiles& run) {
   const LocalMaterial local = local_material(run.body);
   RestInput input =
       measured_body(run.material, run.skeleton,
-                    bond_factors(rest, run.material, local.share, local.stiffness,
+                    bond_factors(rest, run.material, local.volume_share, local.stiffness,
                                  run.body.volume_stiffness.value_or(std::vector<double>{})));
   if (run.body.volume_stiffness) input.law.volume_stiffness_of = *run.body.volume_stiffness;
   if (run.body.density) input.density = *run.body.density;

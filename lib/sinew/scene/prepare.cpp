@@ -132,7 +132,7 @@ Material material_of(const Settings& settings, const Particles& particles) {
 
 LocalMaterial local_material(const BodyFile& body) {
   const auto given = [](const auto& values) { return values.value_or(std::vector<double>()); };
-  return {given(body.share), given(body.stiffness), body.component};
+  return {given(body.volume_share), given(body.stiffness), body.component};
 }
 
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
@@ -143,11 +143,11 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.binding = bind_scene(settings, files, body.skeleton, body.rest, particles.radius);
   body.material = material_of(settings, particles);
   body.lattice = lattice_axes(settings.body);
-  body.share = std::move(local.share);
+  body.volume_share = std::move(local.volume_share);
   body.stiffness = std::move(local.stiffness);
   set_local_materials(settings, Parts(settings, body, files.surface, local.component), body);
   body.factors =
-      bond_factors(body.rest, body.material, body.share, body.stiffness, body.local.volume);
+      bond_factors(body.rest, body.material, body.volume_share, body.stiffness, body.local.volume);
   body.factors.stiffest = std::max(body.factors.stiffest, stiffest_volume(body));
   set_damping_ratio(settings, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);

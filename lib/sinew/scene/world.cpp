@@ -157,9 +157,9 @@ Muscle muscle_of(const MuscleSettings& given, const std::string& path, const Set
   muscle.strength = given.strength;
   muscle.activation = values_of(given.keys);
   const Region region = region_of(given.region);
-  muscle.shares = bone == no_bone || region.shape ? shares_in(region, body.rest)
-                                                  : shares_bound_to(bone, body.binding);
-  if (muscle.shares.empty())
+  muscle.weights = bone == no_bone || region.shape ? weights_in(region, body.rest)
+                                                   : weights_bound_to(bone, body.binding);
+  if (muscle.weights.empty())
     throw bad_input(settings.place(path), "muscle '" + given.name + "' has no particles",
                     "place its region on the body at rest, or name a bone that holds some");
   return muscle;
@@ -171,7 +171,7 @@ void add_muscles(const Settings& settings, const Body& body, World& world) {
     muscles.push_back(muscle_of(settings.world.muscles[i], entry("muscles", i), settings, body));
   if (muscles.empty()) return;
   world.muscles = with_context(settings, "world.muscles", [&] {
-    return make_muscles(body.rest, body.material.pair.r, std::move(muscles), body.share);
+    return make_muscles(body.rest, body.material.pair.r, std::move(muscles), body.volume_share);
   });
 }
 

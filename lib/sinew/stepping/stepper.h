@@ -117,7 +117,7 @@ class Stepper {
   // Steps that bring a body to rest, of steppers that have them.
 
   virtual bool relaxes() const { return false; }
-  /// Velocities keep that share of themselves, and gain accordingly less. Moves nothing yet:
+  /// Velocities keep that fraction of themselves, and gain accordingly less. Moves nothing yet:
   /// accept() does.
   virtual StepSums try_step(const TimedPose&, double) { return {}; }
   virtual void accept() {}

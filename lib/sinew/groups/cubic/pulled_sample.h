@@ -55,7 +55,7 @@ class PulledSample {
   BlockState<Real> state_;
   std::vector<std::uint32_t> holds_first_;
   std::vector<kernel::Slot> slots_;
-  Lines<Real> held_, shares_;
+  Lines<Real> held_, weights_;
 };
 
 }  // namespace sinew

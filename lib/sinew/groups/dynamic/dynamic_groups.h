@@ -65,8 +65,8 @@ class DynamicGroups {
     std::set<int> bend;  ///< parts with cubic groups, which have no affine ones
   };
 
-  bool is_held_above(double share, const HeldCell& cell) const;
-  double share_of_most(const GroupingMoment& now, bool was_grouped, const Residual& off) const;
+  bool is_held_above(double fraction, const HeldCell& cell) const;
+  double relative_residual(const GroupingMoment& now, bool was_grouped, const Residual& off) const;
   std::vector<bool> moving(const GroupingMoment& now, double ahead) const;
   std::vector<std::uint8_t> torn_around(std::span<const HeldCell> held) const;
   void grow(const GroupingMoment& now, std::vector<Unit>& units) const;

@@ -55,7 +55,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
   groups_.begin(layout_.now, layout_.units());
   const std::size_t blocks = layout_.now.blocks();
   if (body_->material.damping_form != DampingForm::paper && body_->material.damping > 0)
-    share_.assign((blocks + 2) * block, 0);
+    inverse_count_.assign((blocks + 2) * block, 0);
   totals_.resize((blocks + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
 }
 
@@ -78,8 +78,8 @@ void ListStepper<Real>::place_bones(const Pose& pose) {
 
 template <class Real>
 kernel::Holds<Real> ListStepper<Real>::holds() const {
-  const auto& [first, slots, held, shares, center] = slots_;
-  return {first.data(), slots.data(), held.data(), shares.data(), bones_.data()};
+  const auto& [first, slots, held, weights, center] = slots_;
+  return {first.data(), slots.data(), held.data(), weights.data(), bones_.data()};
 }
 
 template <class Real>
@@ -102,7 +102,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   strain_.put_into(step);
   if constexpr (sizeof(Real) == 8) careful_.resize(layout_.now.blocks() * block);
   step.careful = careful_.data();
-  step.share = share_.empty() ? nullptr : share_.data() + block;
+  step.inverse_count = inverse_count_.empty() ? nullptr : inverse_count_.data() + block;
   step.central = material.damping_form == DampingForm::central;
   step.mass = masses_.empty() ? nullptr : masses_.data();
   step.loads = surroundings_.loads();
@@ -165,7 +165,7 @@ void ListStepper<Real>::find_deformation(const kernel::Step<Real>& now) {
   if (!strain_.empty())
     on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.strain(now, first, last); });
   find_flow(now);
-  if (share_.empty()) return;
+  if (inverse_count_.empty()) return;
   auto counting = now;
   // Within groups, the neighbors of idle blocks remain.
   if (!std::exchange(counted_, true)) counting.grouped = {};
@@ -231,7 +231,8 @@ WorldReactions ListStepper<Real>::reactions() const {
 
 template <class Real>
 StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
-  const auto work = kernel_.step[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  const auto work =
+      kernel_.step[law_][inverse_count_.empty() ? kernel::to_the_mean : kernel::pairwise];
   on_all_pieces(
       [&](std::size_t first, std::size_t last) { surroundings_.run(work, now, first, last); });
   move_groups(now);
@@ -399,7 +400,8 @@ Balance ListStepper<Real>::evaluate(const TimedPose& moment, Forces& forces) {
   const auto now = begin(moment, surroundings_.any() ? &of_world : nullptr, true);
   const double newtons =
       mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
-  const auto work = kernel_.probe[law_][share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  const auto work =
+      kernel_.probe[law_][inverse_count_.empty() ? kernel::to_the_mean : kernel::pairwise];
   const auto probed = [&](const kernel::Step<Real>& job, std::size_t first, std::size_t last) {
     surroundings_.run(work, job, first, last);
   };

@@ -102,7 +102,7 @@ class ListStepper final : public Stepper {
   std::vector<double> moved_;          ///< by pins, by piece, since the lists followed, m
   std::vector<Real> masses_;           ///< over mass_, padded at the end; empty: 1 each
   std::vector<std::uint8_t> careful_;  ///< by vector of particles; see kernel::Step
-  std::vector<Real> share_;            ///< padded; empty unless damping acts pair by pair
+  std::vector<Real> inverse_count_;    ///< padded; empty unless damping acts pair by pair
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step behind positions (velocity Verlet)
