@@ -144,7 +144,7 @@ TEST(StepLimit, OfExplicitEulerIsSetByStrongDamping) {
 }
 
 TEST(StepLimit, OfExplicitEulerIsSetByWeaklyDampedBones) {
-  // One particle alone, held by an anchor: a mode that only the bone damps.
+  // One particle alone, bound by an anchor: a mode that only the bone damps.
   Settings settings = scene(Integrator::explicit_euler, DampingForm::paper, 5);
   settings.binding.force = BoneForce::anchor;
   settings.binding.stiffness = 1;

@@ -199,16 +199,16 @@ TEST(Isotropy, OfTwelveEqualSpringsIsThatOfTheCrystal) {
   EXPECT_EQ(sheet.modulus_range()[1], 0);
 }
 
-/// Two particles that overlap part until they no longer do, symmetrically; a held one does not
+/// Two particles that overlap part until they no longer do, symmetrically; a fixed one does not
 /// move.
 TEST(Relax, PartsParticlesUntilTheyTouch) {
   Points two = {{0, 0, 0}, {0.3, 0, 0}};
-  relax(two, {.distance = 1, .held = {0, 0}, .enough = 1e-9});
+  relax(two, {.distance = 1, .fixed = {0, 0}, .enough = 1e-9});
   EXPECT_GE((two[1] - two[0]).norm(), 1);
   EXPECT_LT((two[1] - two[0]).norm(), 1.2);
   EXPECT_NEAR((two[1] + two[0]).x(), 0.3, 1e-12);
   Points one = {{0, 0, 0}, {0.3, 0, 0}};
-  relax(one, {.distance = 1, .held = {1, 0}, .enough = 1e-9});
+  relax(one, {.distance = 1, .fixed = {1, 0}, .enough = 1e-9});
   EXPECT_EQ(one[0].norm(), 0);
   EXPECT_GE(one[1].x(), 1);
 }

@@ -167,7 +167,7 @@ void expect_slots_of_binding(const Scene& scene, const std::vector<std::int32_t>
   for (std::size_t k = 0; k < id.size(); ++k) {
     const auto influences = scene.body.binding.of(id[k]);
     double weights = 0, leads = 0;
-    std::size_t held = 0;
+    std::size_t bound = 0;
     for (std::uint32_t s = slots.first[k / block]; s < slots.first[k / block + 1]; ++s) {
       const kernel::Slot slot = slots.slots[s];
       const auto weight_of = [&](int field) {
@@ -179,13 +179,13 @@ void expect_slots_of_binding(const Scene& scene, const std::vector<std::int32_t>
       leads += weight_of(kernel::lead);
       for (const Influence& influence : influences)
         if (influence.bone == slot.bone) {
-          ++held;
+          ++bound;
           EXPECT_EQ(weight_of(kernel::weight), static_cast<Real>(influence.weight));
         }
     }
     EXPECT_NEAR(weights, 1, 1e-6);
     EXPECT_EQ(leads, 1);
-    EXPECT_EQ(held, influences.size());
+    EXPECT_EQ(bound, influences.size());
   }
 }
 

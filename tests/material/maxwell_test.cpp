@@ -48,14 +48,14 @@ double stiffness_at_once() {
 TEST(BranchClock, RelaxesByTheWholeTimeThatPasses) {
   for (const double step : {1e-6, 1e-3, 0.3}) {
     BranchClock clock(0.1);
-    double held = 1, time = 0, least = 1;
+    double remaining = 1, time = 0, least = 1;
     while (time < 1) {
       const double flows = clock.flows(step);
       if (flows > 0) least = std::min(least, flows);
-      held *= 1 - flows;
+      remaining *= 1 - flows;
       time += step;
       clock.advance(step);
-      EXPECT_NEAR(clock.ahead() + time, -0.1 * std::log(held), 1e-9);
+      EXPECT_NEAR(clock.ahead() + time, -0.1 * std::log(remaining), 1e-9);
       EXPECT_LE(std::abs(clock.ahead()), (std::max(step, 0.1 / 256) + step) / 2);
     }
     EXPECT_GT(least, 1.0 / 520);

@@ -183,10 +183,10 @@ TEST(World, StepsWithinTheLimitOfItsStiffnessAndDampingAreStable) {
   EXPECT_NEAR(w2, 450 / mass, 1e-9);
   EXPECT_NEAR(g, 1.8 / mass, 1e-9);
   const double limit = (std::sqrt(g * g + 4 * w2) - g) / w2;
-  World held = world;
-  held.fields = {{"press", UniformAcceleration{{0, 0, -150 * 0.5 * r / mass}}, {}, {}}};
-  EXPECT_TRUE(rests(held, mass, {0, 0, 0}, 0.99 * limit));
-  EXPECT_FALSE(rests(held, mass, {0, 0, 0}, 4 * limit));
+  World pressed = world;
+  pressed.fields = {{"press", UniformAcceleration{{0, 0, -150 * 0.5 * r / mass}}, {}, {}}};
+  EXPECT_TRUE(rests(pressed, mass, {0, 0, 0}, 0.99 * limit));
+  EXPECT_FALSE(rests(pressed, mass, {0, 0, 0}, 4 * limit));
 }
 
 TEST(World, LimitsCountTheObstaclesThatAParticleCanMeetAtOnce) {

@@ -49,7 +49,7 @@ void for_each_around(SiteValues& volume_shares, const FccSite& site, const Visit
   }
 }
 
-/// Sites with little of the body, or loosely held, leave it to the neighbor that has most.
+/// Sites with little of the body, or with few bonds, leave it to the neighbor that has most.
 SiteValues kept(SiteValues volume_shares) {
   for (bool changed = true; changed;) {
     changed = false;

@@ -136,9 +136,9 @@ void Groups<Real>::advance() {
 }
 
 template <class Real>
-void Groups<Real>::add_held(std::span<const std::int32_t> cell, const Units& units,
-                            std::span<HeldCell> held) const {
-  if (any()) parts_->motions.add_held(cell, units, held);
+void Groups<Real>::add_constrained(std::span<const std::int32_t> cell, const Units& units,
+                                   std::span<ConstrainedCell> constrained) const {
+  if (any()) parts_->motions.add_constrained(cell, units, constrained);
 }
 
 template <class Real>

@@ -96,8 +96,8 @@ class Groups {
   void advance();
   /// Adds, to the cell of each particle on which forces were gathered in the last step, what of its
   /// acceleration the group does not follow. `cell`: by id.
-  void add_held(std::span<const std::int32_t> cell, const Units& units,
-                std::span<HeldCell> held) const;
+  void add_constrained(std::span<const std::int32_t> cell, const Units& units,
+                       std::span<ConstrainedCell> constrained) const;
   /// Fills what keeps the groups together, from all other forces and gravity (m/s^2). `caller`: of
   /// each place, that in `forces`.
   void constrain(Forces& forces, const std::vector<std::uint32_t>& caller,

@@ -100,24 +100,26 @@ struct BoneNow {
   Real stretch_rate;  ///< per time
 };
 
-/// A bone that holds particles of a block. Its lanes' fields are in `held`, field after field.
+/// A bone to which particles of a block are bound. Its lanes' fields are in `attachments`, field
+/// after field.
 struct Slot {
   std::int32_t bone;
-  std::int32_t weights;  ///< place of its weights, or -1: all lanes are held by this bone alone
+  std::int32_t weights;  ///< place of its weights, or -1: all lanes are bound to this bone alone
 };
 
-/// Fields of `held`, in the bone's frame at rest: foot and position along the bone, position across
-/// it (0 for a particle on the axis), distance from the foot.
-enum HeldField { foot, along, across_1, across_2, distance, held_fields };
+/// Fields of `attachments`, in the bone's frame at rest: foot and position along the bone, position
+/// across it (0 for a particle on the axis), distance from the foot.
+enum AttachmentField { foot, along, across_1, across_2, distance, attachment_fields };
 /// Fields of `weights`: weight of the bone; 1 where no bone weighs more, else 0.
 enum WeightField { weight, lead, weight_fields };
 
+/// The bones to which the particles of each block are bound.
 template <class Real>
-struct Holds {
+struct Bindings {
   const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
   const Slot* slots;
-  const Real* held;     ///< slots x held_fields x block
-  const Real* weights;  ///< x weight_fields x block
+  const Real* attachments;  ///< slots x attachment_fields x block
+  const Real* weights;      ///< x weight_fields x block
   const BoneNow<Real>* bones;
 };
 
@@ -220,7 +222,7 @@ struct Step {
   const Real* live;    ///< lanes of the last block: 1 for a particle, 0 for padding
   const Lists* lists;  ///< by piece
   Parts<Real> parts;
-  Holds<Real> holds;
+  Bindings<Real> bindings;
   Law<Real> law;
   std::uint8_t* careful;  ///< by vector: its pairs needed care in the last step; double precision
   Real* inverse_count;    ///< 1 / neighbors, or 0; of pairwise damping

@@ -119,12 +119,12 @@ struct Weights {
 };
 
 template <class L>
-SINEW_INLINE Weights<L> weights_of(const Holds<typename L::Real>& holds, const Slot& slot,
+SINEW_INLINE Weights<L> weights_of(const Bindings<typename L::Real>& bindings, const Slot& slot,
                                    int lane) {
   constexpr int block = Traits<typename L::Real>::block;
   if (slot.weights < 0) return {L::all(1), L::all(1)};
   const auto* fields =
-      holds.weights + static_cast<std::ptrdiff_t>(slot.weights) * weight_fields * block + lane;
+      bindings.weights + static_cast<std::ptrdiff_t>(slot.weights) * weight_fields * block + lane;
   return {L::load(fields + weight * block), L::load(fields + lead * block)};
 }
 

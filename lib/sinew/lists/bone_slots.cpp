@@ -31,8 +31,8 @@ std::vector<double> centers(const Body& body) {
 
 /// Writes the fields of one lane.
 template <class Real>
-void hold(const Body& body, const Influence& influence, const Vec3& rest, double center,
-          const Units& units, Real* lane) {
+void put_attachment(const Body& body, const Influence& influence, const Vec3& rest, double center,
+                    const Units& units, Real* lane) {
   constexpr std::size_t block = kernel::Traits<Real>::block;
   const Bone& bone = body.skeleton.bones[influence.bone];
   const Vec3 local = bone.rest.rotation.transpose() * (rest - bone.head());
@@ -42,14 +42,14 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
                      body.springs[influence.bone].form == BoneForce::anchor;
   const double at_rest = influence.distance_to(bone, rest);
   const double distance = at_rest < min_distance * r ? 0 : at_rest;
-  const double fields[kernel::held_fields] = {influence.foot - center, local.x() - center,
-                                              aside ? local.y() : 0, aside ? local.z() : 0,
-                                              distance};
-  for (std::size_t field = 0; field < kernel::held_fields; ++field)
+  const double fields[kernel::attachment_fields] = {influence.foot - center, local.x() - center,
+                                                    aside ? local.y() : 0, aside ? local.z() : 0,
+                                                    distance};
+  for (std::size_t field = 0; field < kernel::attachment_fields; ++field)
     lane[field * block] = static_cast<Real>(fields[field] / units.length);
 }
 
-/// The bones that hold particles of a block, in the order of their first ones.
+/// The bones to which particles of a block are bound, in the order of their first ones.
 void find_bones(const Body& body, std::span<const std::int32_t> ids, std::vector<int>& bones) {
   bones.clear();
   for (const std::int32_t id : ids)
@@ -71,7 +71,7 @@ class Filler {
   void fill() {
     count();
     out_.slots.resize(out_.first.back());
-    out_.held.resize(out_.first.back() * kernel::held_fields * block);
+    out_.attachments.resize(out_.first.back() * kernel::attachment_fields * block);
     out_.weights.resize(first_weights_.back() * kernel::weight_fields * block);
     on_all_blocks([&](std::size_t b, const std::vector<int>& bones) { fill(b, bones); });
   }
@@ -96,7 +96,7 @@ class Filler {
                  });
   }
 
-  /// A bone that holds every lane alone needs no weights.
+  /// A bone to which every lane is bound alone needs no weights.
   bool weights_are_one(std::size_t b, const std::vector<int>& bones) const {
     const auto alone = [&](std::int32_t id) {
       const auto influences = body_.binding.of(id);
@@ -130,8 +130,8 @@ class Filler {
       for (const Influence& influence : influences) {
         const auto k = static_cast<std::size_t>(
             std::find(bones.begin(), bones.end(), influence.bone) - bones.begin());
-        hold(body_, influence, body_.rest[all[lane]], out_.center[influence.bone], units_,
-             &out_.held[(begin + k) * kernel::held_fields * block + lane]);
+        put_attachment(body_, influence, body_.rest[all[lane]], out_.center[influence.bone], units_,
+                       &out_.attachments[(begin + k) * kernel::attachment_fields * block + lane]);
         if (!weighted) continue;
         Real* weights =
             &out_.weights[(first_weights_[b] + k) * kernel::weight_fields * block + lane];

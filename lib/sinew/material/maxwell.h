@@ -5,10 +5,10 @@
 // the bond pulls with k (e - sum g q): k at once, k (1 - sum g) in the end.
 //
 // At certain moments q moves to e by the fraction a = 1 - exp(-t / tau), t the time around that
-// moment: exact for a held bond, second order in time otherwise. These moments are steps, or as
-// many steps apart as fit a 256th of tau: in single precision q could not follow in smaller parts.
-// The force at that moment is the mean of before and after; what is lost there is the difference of
-// the energies stored, k/2 g a (2 - a) (e - q)^2.
+// moment: exact for a bond of constant length, second order in time otherwise. These moments are
+// steps, or as many steps apart as fit a 256th of tau: in single precision q could not follow in
+// smaller parts. The force at that moment is the mean of before and after; what is lost there is
+// the difference of the energies stored, k/2 g a (2 - a) (e - q)^2.
 //
 //     BranchClock clock(branch.time);
 //     const double flows = clock.flows(step);    // at the moment at which a step begins

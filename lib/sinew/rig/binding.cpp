@@ -118,7 +118,8 @@ const BoundRegion* region_of(const std::vector<BoundRegion>& regions, std::size_
 }
 
 /// Adds the influences on one particle, including feet and distances; how many.
-std::size_t add_influences(const Choice& choice, std::size_t i, std::vector<Influence>& held) {
+std::size_t add_influences(const Choice& choice, std::size_t i,
+                           std::vector<Influence>& influences) {
   const Vec3& point = choice.rest[i];
   std::vector<BoneWeight> weights;
   if (const BoundRegion* region = region_of(choice.options.regions, i, point)) {
@@ -129,7 +130,7 @@ std::size_t add_influences(const Choice& choice, std::size_t i, std::vector<Infl
         choice.options.core_radius)
       weights.clear();
   }
-  for (const BoneWeight& one : weights) held.push_back(influence_of(choice, one, point));
+  for (const BoneWeight& one : weights) influences.push_back(influence_of(choice, one, point));
   return weights.size();
 }
 

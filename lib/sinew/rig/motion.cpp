@@ -118,9 +118,9 @@ LocalMotion Track::at(double time, TrackCursor& cursor) const {
   }
   if (cursor.stretches) {
     const auto sample = sample_of(stretch, time, cursor.stretch);
-    const bool held = sample.value < min_stretch;
-    motion.stretch = held ? min_stretch : sample.value;
-    motion.stretch_rate = held ? 0 : sample.rate;
+    const bool clamped = sample.value < min_stretch;
+    motion.stretch = clamped ? min_stretch : sample.value;
+    motion.stretch_rate = clamped ? 0 : sample.rate;
   }
   return motion;
 }

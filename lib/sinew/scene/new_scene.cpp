@@ -128,10 +128,10 @@ double loose_fraction(const Particles& particles, const NeighborLists& touching,
   std::vector<std::size_t> sizes(particles.size());
   for (int i = 0; i < count; ++i) ++sizes[groups.first_of(i)];
   std::sort(sizes.rbegin(), sizes.rend());
-  const std::size_t held = std::accumulate(
+  const std::size_t connected = std::accumulate(
       sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(std::min(parts, sizes.size())),
       std::size_t{0});
-  return 1 - static_cast<double>(held) / static_cast<double>(particles.size());
+  return 1 - static_cast<double>(connected) / static_cast<double>(particles.size());
 }
 
 /// Whether the particles are too large: parts of the body do not hold together, or it is one or two

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <sinew/analysis/elastic_modes.h>
-#include <sinew/analysis/held_motion.h>
+#include <sinew/analysis/free_motion.h>
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
@@ -169,7 +169,7 @@ void check_packing(const Settings& settings) {
                     "remove it, or set body.packing to fcc");
 }
 
-/// A body in equilibrium is held.
+/// A body in equilibrium is restrained.
 void refuse_free(const Settings& settings, const Body& body) {
   const auto free = free_motion(body);
   if (!free) return;

@@ -131,8 +131,10 @@ class Stepper {
   virtual void regroup() {}
   /// The same without a change of the grouping: velocities have changed.
   virtual void fit_groups() {}
-  /// Sums by cell of the body (`cell`: of each particle, by id), after a step.
-  virtual std::vector<HeldCell> held(std::span<const std::int32_t>, std::size_t) const {
+  /// Accelerations that groups do not follow, summed by cell of the body (`cell`: of each particle,
+  /// by id), after a step.
+  virtual std::vector<ConstrainedCell> constrained_cells(std::span<const std::int32_t>,
+                                                         std::size_t) const {
     return {};
   }
 };

@@ -13,7 +13,7 @@
 //   U = a S V0 w ln(lambda),  lambda = |F t0|,
 //   force on neighbor j: -V0 P A^-1 X_ij, the opposite on i,  P = a S w (F t0) t0^T / lambda^2,
 // with A = sum X X^T at rest and w the particle's weight. P F^T is symmetric, so momentum and
-// angular momentum are conserved. Below lambda = 1/2, lambda^2 is held at 1/4 and U continued
+// angular momentum are conserved. Below lambda = 1/2, lambda^2 stays at 1/4 and U continued
 // smoothly: a crushed fiber loses its pull instead of gaining without limit. Particles whose
 // neighbors at rest lie in a plane have no F, and no fibers.
 #pragma once

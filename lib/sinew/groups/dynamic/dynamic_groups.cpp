@@ -109,8 +109,8 @@ DynamicGroups::DynamicGroups(std::shared_ptr<const Body> body, Motion motion, do
     : body_(std::move(body)),
       motion_(std::move(motion)),
       options_(options),
-      max_held_(options.tolerance * body_->material.pair.r * stiffness_of_place *
-                body_->material.stiffness() / mass),
+      max_constraint_(options.tolerance * body_->material.pair.r * stiffness_of_place *
+                      body_->material.stiffness() / mass),
       near_(neighbors_within(body_->rest, rest_neighbor_range(body_->material.pair.r))),
       cell_(body_->rest.size()) {
   const double edge = cell_edge * 2 * body_->material.pair.r;
@@ -152,8 +152,8 @@ std::vector<bool> DynamicGroups::moving(const GroupingMoment& now, double ahead)
   return moves;
 }
 
-bool DynamicGroups::is_held_above(double fraction, const HeldCell& cell) const {
-  const double most = fraction * max_held_;
+bool DynamicGroups::is_constrained_above(double fraction, const ConstrainedCell& cell) const {
+  const double most = fraction * max_constraint_;
   return cell.squares > most * most * cell.count;
 }
 
@@ -165,9 +165,10 @@ double DynamicGroups::relative_residual(const GroupingMoment& now, bool was_grou
   return std::max(off.x, off.v * now.interval * now.interval) / (most * most);
 }
 
-bool DynamicGroups::must_split(const GroupingMoment& now, std::span<const HeldCell> held) const {
-  if (std::any_of(held.begin(), held.end(),
-                  [&](const HeldCell& cell) { return is_held_above(1, cell); }))
+bool DynamicGroups::must_split(const GroupingMoment& now,
+                               std::span<const ConstrainedCell> constrained) const {
+  if (std::any_of(constrained.begin(), constrained.end(),
+                  [&](const ConstrainedCell& cell) { return is_constrained_above(1, cell); }))
     return true;
   const std::vector<bool> moves = moving(now, now.interval);
   for (std::size_t b = 0; b < moves.size(); ++b)
@@ -175,14 +176,15 @@ bool DynamicGroups::must_split(const GroupingMoment& now, std::span<const HeldCe
   return false;
 }
 
-/// 1 for cells that are held too strongly, with those around them, or soon will be.
-std::vector<std::uint8_t> DynamicGroups::torn_around(std::span<const HeldCell> held) const {
+/// 1 for cells that groups constrain too strongly, with those around them, or soon will be.
+std::vector<std::uint8_t> DynamicGroups::torn_around(
+    std::span<const ConstrainedCell> constrained) const {
   std::vector<std::uint8_t> torn(count_, 0);
   const auto& [nx, ny, nz] = cells_along_;
-  for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(held.size()); ++cell) {
-    const HeldCell& at = held[static_cast<std::size_t>(cell)];
-    if (is_held_above(torn_fraction, at)) torn[static_cast<std::size_t>(cell)] = 1;
-    if (!is_held_above(1, at)) continue;
+  for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(constrained.size()); ++cell) {
+    const ConstrainedCell& at = constrained[static_cast<std::size_t>(cell)];
+    if (is_constrained_above(torn_fraction, at)) torn[static_cast<std::size_t>(cell)] = 1;
+    if (!is_constrained_above(1, at)) continue;
     const std::int32_t x = cell % nx, y = cell / nx % ny, z = cell / (nx * ny);
     for (std::int32_t k = std::max(z - 1, 0); k <= std::min(z + 1, nz - 1); ++k)
       for (std::int32_t j = std::max(y - 1, 0); j <= std::min(y + 1, ny - 1); ++j)
@@ -313,10 +315,11 @@ void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
     if (group[units.members(u).front()] >= 0) asked.bend.insert(units.all()[u].part);
 }
 
-NewGroups DynamicGroups::regroup(const GroupingMoment& now, std::span<const HeldCell> held,
+NewGroups DynamicGroups::regroup(const GroupingMoment& now,
+                                 std::span<const ConstrainedCell> constrained,
                                  const Particles& particles) const {
   const std::vector<bool> moves = moving(now, checks_ahead * now.interval);
-  const std::vector<std::uint8_t> torn = torn_around(held);
+  const std::vector<std::uint8_t> torn = torn_around(constrained);
   NewGroups made{std::vector<std::int32_t>(cell_.size(), -1), now.still_since};
   Asked asked{now, moves, torn, particles, {}};
   if (options_.sizes.cubic_distance) add_groups(asked, true, 0, made.group);

@@ -5,7 +5,8 @@
 // they come to until the next check.
 //
 //     DynamicGroups dynamic(body, motion, options);
-//     if (dynamic.must_split(now, held)) next = dynamic.regroup(now, held, particles);
+//     if (dynamic.must_split(now, constrained)) next = dynamic.regroup(now, constrained,
+//     particles);
 #pragma once
 
 #include <array>
@@ -47,12 +48,13 @@ class DynamicGroups {
   const std::vector<std::int32_t>& cells() const { return cell_; }
   std::size_t cell_count() const { return count_; }
 
-  /// Whether a cell is held too strongly, or a joint that was still moves until the next check.
-  bool must_split(const GroupingMoment& now, std::span<const HeldCell> held) const;
+  /// Whether groups constrain a cell too strongly, or a joint that was still moves until the next
+  /// check.
+  bool must_split(const GroupingMoment& now, std::span<const ConstrainedCell> constrained) const;
   /// Whether at least so many particles are free that might join.
   bool may_join(const GroupingMoment& now, std::size_t enough) const;
   /// `particles`: at the moment, in any order.
-  NewGroups regroup(const GroupingMoment& now, std::span<const HeldCell> held,
+  NewGroups regroup(const GroupingMoment& now, std::span<const ConstrainedCell> constrained,
                     const Particles& particles) const;
 
  private:
@@ -65,10 +67,10 @@ class DynamicGroups {
     std::set<int> bend;  ///< parts with cubic groups, which have no affine ones
   };
 
-  bool is_held_above(double fraction, const HeldCell& cell) const;
+  bool is_constrained_above(double fraction, const ConstrainedCell& cell) const;
   double relative_residual(const GroupingMoment& now, bool was_grouped, const Residual& off) const;
   std::vector<bool> moving(const GroupingMoment& now, double ahead) const;
-  std::vector<std::uint8_t> torn_around(std::span<const HeldCell> held) const;
+  std::vector<std::uint8_t> torn_around(std::span<const ConstrainedCell> constrained) const;
   void grow(const GroupingMoment& now, std::vector<Unit>& units) const;
   void bend(const GroupingMoment& now, MovingUnits& units) const;
   void add_groups(Asked& asked, bool cubic, std::int32_t first,
@@ -77,8 +79,8 @@ class DynamicGroups {
   std::shared_ptr<const Body> body_;
   Motion motion_;
   DynamicOptions options_;
-  double max_held_;     ///< m/s^2
-  NeighborLists near_;  ///< nearest ones, by id
+  double max_constraint_;  ///< m/s^2
+  NeighborLists near_;     ///< nearest ones, by id
   std::vector<std::int32_t> cell_;
   std::array<std::int32_t, 3> cells_along_{};
   std::size_t count_ = 0;

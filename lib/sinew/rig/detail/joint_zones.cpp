@@ -89,24 +89,24 @@ void add_children(const JointZones& zones, int parent, const Vec3& point, const 
 
 /// Adds the bones that meet at the joints below `parent`; the first one keeps the remaining weight.
 void add_family(const JointZones& zones, int parent, const Vec3& point, const Distance& distance,
-                std::vector<BoneWeight>& held) {
+                std::vector<BoneWeight>& weights) {
   const std::vector<int>& children = zones.children[parent];
   if (children.empty()) return;
-  const std::size_t before = held.size();
+  const std::size_t before = weights.size();
   if (children.size() == 1)
-    held.push_back({children[0], weight_of_child(zones, children[0], point, distance)});
+    weights.push_back({children[0], weight_of_child(zones, children[0], point, distance)});
   else
-    add_children(zones, parent, point, distance, held);
+    add_children(zones, parent, point, distance, weights);
   double of_children = 0;
-  for (std::size_t k = before; k < held.size(); ++k) of_children += held[k].weight;
-  held.push_back({parent, std::max(0.0, 1 - of_children)});
-  const int lead = held.front().bone;
-  held.erase(std::remove_if(held.begin() + static_cast<std::ptrdiff_t>(before), held.end(),
-                            [lead](const BoneWeight& one) { return one.bone == lead; }),
-             held.end());
+  for (std::size_t k = before; k < weights.size(); ++k) of_children += weights[k].weight;
+  weights.push_back({parent, std::max(0.0, 1 - of_children)});
+  const int lead = weights.front().bone;
+  weights.erase(std::remove_if(weights.begin() + static_cast<std::ptrdiff_t>(before), weights.end(),
+                               [lead](const BoneWeight& one) { return one.bone == lead; }),
+                weights.end());
   double of_others = 0;
-  for (std::size_t k = before; k < held.size(); ++k) of_others += held[k].weight;
-  held.front().weight *= std::max(0.0, 1 - of_others);
+  for (std::size_t k = before; k < weights.size(); ++k) of_others += weights[k].weight;
+  weights.front().weight *= std::max(0.0, 1 - of_others);
 }
 
 }  // namespace
@@ -143,19 +143,19 @@ JointZones joint_zones(const Skeleton& skeleton, const std::vector<double>& sect
 
 std::vector<BoneWeight> weights_in_zones(const JointZones& zones, int lead, const Vec3& point,
                                          const Distance& distance) {
-  std::vector<BoneWeight> held;
-  held.reserve(5);  // one allocation for chains of bones
-  held.push_back({lead, 1});
+  std::vector<BoneWeight> weights;
+  weights.reserve(5);  // one allocation for chains of bones
+  weights.push_back({lead, 1});
   if (zones.parent[lead] != no_bone && zones.above[lead].length > 0)
-    add_family(zones, zones.parent[lead], point, distance, held);
-  add_family(zones, lead, point, distance, held);
-  std::erase_if(held, [](const BoneWeight& one) { return one.weight <= 0; });
+    add_family(zones, zones.parent[lead], point, distance, weights);
+  add_family(zones, lead, point, distance, weights);
+  std::erase_if(weights, [](const BoneWeight& one) { return one.weight <= 0; });
   double sum = 0;
-  for (const BoneWeight& one : held) sum += one.weight;
-  for (BoneWeight& one : held) one.weight /= sum;
-  std::stable_sort(held.begin(), held.end(),
+  for (const BoneWeight& one : weights) sum += one.weight;
+  for (BoneWeight& one : weights) one.weight /= sum;
+  std::stable_sort(weights.begin(), weights.end(),
                    [](const BoneWeight& a, const BoneWeight& b) { return a.weight > b.weight; });
-  return held;
+  return weights;
 }
 
 }  // namespace sinew

@@ -77,9 +77,9 @@ void ListStepper<Real>::place_bones(const Pose& pose) {
 }
 
 template <class Real>
-kernel::Holds<Real> ListStepper<Real>::holds() const {
-  const auto& [first, slots, held, weights, center] = slots_;
-  return {first.data(), slots.data(), held.data(), weights.data(), bones_.data()};
+kernel::Bindings<Real> ListStepper<Real>::bindings() const {
+  const auto& [first, slots, attachments, weights, center] = slots_;
+  return {first.data(), slots.data(), attachments.data(), weights.data(), bones_.data()};
 }
 
 template <class Real>
@@ -96,7 +96,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.live = layout_.now.live();
   step.lists = lists_.arrays();
   step.parts = lists_.parts();
-  step.holds = holds();
+  step.bindings = bindings();
   step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
   strain_.put_into(step);
@@ -577,11 +577,11 @@ void ListStepper<Real>::regroup() {
 }
 
 template <class Real>
-std::vector<HeldCell> ListStepper<Real>::held(std::span<const std::int32_t> cell,
-                                              std::size_t cells) const {
-  std::vector<HeldCell> held(cells);
-  groups_.add_held(cell, layout_.units(), held);
-  return held;
+std::vector<ConstrainedCell> ListStepper<Real>::constrained_cells(
+    std::span<const std::int32_t> cell, std::size_t cells) const {
+  std::vector<ConstrainedCell> constrained(cells);
+  groups_.add_constrained(cell, layout_.units(), constrained);
+  return constrained;
 }
 
 template class ListStepper<double>;

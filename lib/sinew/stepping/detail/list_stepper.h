@@ -51,7 +51,8 @@ class ListStepper final : public Stepper {
   bool has_groups() const override { return true; }
   void regroup() override;
   void fit_groups() override { groups_.begin(layout_.now, layout_.units()); }
-  std::vector<HeldCell> held(std::span<const std::int32_t> cell, std::size_t cells) const override;
+  std::vector<ConstrainedCell> constrained_cells(std::span<const std::int32_t> cell,
+                                                 std::size_t cells) const override;
 
  private:
   static constexpr int block = BlockState<Real>::block;
@@ -62,7 +63,7 @@ class ListStepper final : public Stepper {
   static constexpr std::size_t pieces_at_a_time = 4;  ///< where some take longer than others
 
   void place_bones(const Pose& pose);
-  kernel::Holds<Real> holds() const;
+  kernel::Bindings<Real> bindings() const;
   kernel::Step<Real> job();
   void on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run);
   void hold(const TimedPose& now);

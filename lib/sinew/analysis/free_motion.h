@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether bones, pins and supports hold every rigid motion of a body and of each of its parts:
+// Whether bones, pins and supports restrain every rigid motion of a body and of each of its parts:
 // what is free to move as a whole has no equilibrium of its own.
 //
 //     if (const auto free = free_motion(body)) refuse(free->text());
@@ -13,7 +13,7 @@
 
 namespace sinew {
 
-/// A rigid motion that nothing holds, of a connected part of the body.
+/// A rigid motion that nothing restrains, of a connected part of the body.
 struct FreeMotion {
   Vec3 translation = Vec3::Zero();  ///< of the center; of length 1, or 0 for a rotation
   Vec3 axis = Vec3::Zero();         ///< of a rotation about the center, of length 1
@@ -25,8 +25,8 @@ struct FreeMotion {
   std::string text() const;
 };
 
-/// The first one, at rest; none where all are held. A bone holds a particle along those directions
-/// along which it has springs. Particles are connected where they are neighbors at rest.
+/// The first one, at rest; none where all are restrained. A bone restrains a particle along those
+/// directions along which it has springs. Particles are connected where they are neighbors at rest.
 std::optional<FreeMotion> free_motion(const Body& body);
 
 }  // namespace sinew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/analysis/held_motion.h>
+#include <sinew/analysis/free_motion.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 using Motion6 = Eigen::Matrix<double, 6, 1>;  // translation, then rotation times the part's size
 using Gram = Eigen::Matrix<double, 6, 6>;
 
-constexpr double none = 1e-8;  // of the largest: what counts as no motion, and as not held
+constexpr double none = 1e-8;  // of the largest: what counts as no motion, and as not restrained
 constexpr double small_rotation = 1e-3;  // beside a translation
 
 /// Connected parts, by particle.
@@ -44,12 +44,12 @@ PartNumbers parts_of(const Body& body) {
   return parts;
 }
 
-/// One part of the body: which of its motions move it, and which are held.
+/// One part of the body: which of its motions move it, and which are restrained.
 struct Part {
   Vec3 center = Vec3::Zero();
   double size = 0;
   std::size_t particles = 0;
-  Gram moved = Gram::Zero(), held = Gram::Zero();
+  Gram moved = Gram::Zero(), restrained = Gram::Zero();
 
   void add(const Vec3& place, const Vec3& direction, Gram& to) const {
     Motion6 row;
@@ -75,42 +75,42 @@ std::vector<Part> parts_at_rest(const Body& body, const PartNumbers& numbers) {
   return parts;
 }
 
-void hold_by_bone(const Body& body, const Influence& by, const Vec3& place, Part& part) {
+void restrain_by_bone(const Body& body, const Influence& by, const Vec3& place, Part& part) {
   const Bone& bone = body.skeleton.bones[static_cast<std::size_t>(by.bone)];
   const BoneSprings& springs = body.springs[static_cast<std::size_t>(by.bone)];
   const Vec3 across = place - by.foot_on(bone);
   const bool without_arm = across.norm() < 1e-6 * body.material.pair.r;
   if (springs.form == BoneForce::anchor || without_arm) {
     if (springs.radial > 0)
-      for (int axis = 0; axis < 3; ++axis) part.add(place, Vec3::Unit(axis), part.held);
+      for (int axis = 0; axis < 3; ++axis) part.add(place, Vec3::Unit(axis), part.restrained);
   } else {
     const Vec3 turning = bone.axis().cross(across);
-    if (springs.radial > 0) part.add(place, across.normalized(), part.held);
+    if (springs.radial > 0) part.add(place, across.normalized(), part.restrained);
     if (springs.twist > 0 && turning.norm() > 1e-6 * body.material.pair.r)
-      part.add(place, turning.normalized(), part.held);
+      part.add(place, turning.normalized(), part.restrained);
   }
   if (springs.form != BoneForce::anchor && springs.axial > 0)
-    part.add(place, bone.axis(), part.held);
+    part.add(place, bone.axis(), part.restrained);
 }
 
-void add_what_holds(const Body& body, const std::vector<std::size_t>& part,
+void add_restraints(const Body& body, const std::vector<std::size_t>& part,
                     std::vector<Part>& parts) {
   for (std::size_t i = 0; i < part.size(); ++i)
     for (const Influence& by : body.binding.of(i))
-      hold_by_bone(body, by, body.rest[i], parts[part[i]]);
+      restrain_by_bone(body, by, body.rest[i], parts[part[i]]);
   if (!body.world) return;
   for (const Pinned& pin : body.world->pins)
     if (pin.is_oblique())
       parts[part[pin.particle]].add(body.rest[pin.particle], pin.along,
-                                    parts[part[pin.particle]].held);
+                                    parts[part[pin.particle]].restrained);
   for (const Pinned& pin : body.world->pins)
     for (int axis = 0; axis < 3; ++axis)
       if (pin.holds(axis))
         parts[part[pin.particle]].add(body.rest[pin.particle], Vec3::Unit(axis),
-                                      parts[part[pin.particle]].held);
+                                      parts[part[pin.particle]].restrained);
 }
 
-/// The motion that is held least, of those that move the part; of length 0 where all are held.
+/// The motion that is restrained least, of those that move the part; of length 0 where all are.
 Motion6 free_of(const Part& part) {
   const Eigen::SelfAdjointEigenSolver<Gram> moved(part.moved);
   const double most = moved.eigenvalues()[5];
@@ -119,10 +119,11 @@ Motion6 free_of(const Part& part) {
   const Eigen::Matrix<double, 6, Eigen::Dynamic> motions =
       moved.eigenvectors().rightCols(6 - first) *
       moved.eigenvalues().tail(6 - first).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> held(
-      Eigen::MatrixXd(motions.transpose() * part.held * motions));
-  if (held.eigenvalues()[0] > none * held.eigenvalues().tail(1)[0]) return Motion6::Zero();
-  return motions * held.eigenvectors().col(0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> restrained(
+      Eigen::MatrixXd(motions.transpose() * part.restrained * motions));
+  if (restrained.eigenvalues()[0] > none * restrained.eigenvalues().tail(1)[0])
+    return Motion6::Zero();
+  return motions * restrained.eigenvectors().col(0);
 }
 
 /// Scales to length 1, with the largest component positive.
@@ -151,7 +152,7 @@ std::string FreeMotion::text() const {
 std::optional<FreeMotion> free_motion(const Body& body) {
   const PartNumbers numbers = parts_of(body);
   std::vector<Part> parts = parts_at_rest(body, numbers);
-  add_what_holds(body, numbers.of, parts);
+  add_restraints(body, numbers.of, parts);
   for (const Part& one : parts) {
     const Motion6 free = free_of(one);
     if (free.isZero(0)) continue;
