@@ -28,13 +28,13 @@ constexpr double regularization = 1e-6 / 18, irregular_regularization = 3e-2 / 1
 constexpr double edges_over_waves = 1.02;
 constexpr double min_offset = 1e-3;  // in radii, of a neighbor's distance from a lattice's
 
-/// The independent parts of a symmetric tensor of fourth order, so that sums of products are those
-/// of the tensors.
+/// The independent components of a symmetric tensor of fourth order, so that sums of products are
+/// those of the tensors.
 using Tensor = Eigen::Matrix<double, 15, 1>;
-using Parts = Eigen::Matrix<double, 15, Eigen::Dynamic>;
+using Tensors = Eigen::Matrix<double, 15, Eigen::Dynamic>;
 
 Tensor fourth_power(const Vec3& n) {
-  Tensor parts;
+  Tensor components;
   int at = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j)
@@ -44,9 +44,9 @@ Tensor fourth_power(const Vec3& n) {
           for (const int axis : {i, j, k, l}) ++times[axis];
           double orders = 24;
           for (const int count : times) orders /= std::tgamma(count + 1.0);
-          parts[at++] = std::sqrt(orders) * n[i] * n[j] * n[k] * n[l];
+          components[at++] = std::sqrt(orders) * n[i] * n[j] * n[k] * n[l];
         }
-  return parts;
+  return components;
 }
 
 /// The sum of k l^2 n n n n inside, over k d0^2.
@@ -158,21 +158,21 @@ class SurfaceBonds {
   void ask(std::size_t i) {
     static const Tensor whole = inside();
     const auto around = near_.of(i);
-    Parts parts(15, around.size());
+    Tensors tensors(15, around.size());
     for (std::size_t b = 0; b < around.size(); ++b) {
       const Vec3 X = rest_[around[b]] - rest_[i];
       const double length = X.norm(), relative = length / nearest_distance(r_);
-      parts.col(static_cast<Eigen::Index>(b)) =
+      tensors.col(static_cast<Eigen::Index>(b)) =
           relative_stiffness(length) * relative * relative * fourth_power(X / length);
     }
     const double volume_share =
         volume_share_.empty() ? 1 : std::min(volume_share_[i], max_volume_share);
     const Eigen::Matrix<double, 15, 15> normal =
-        parts * parts.transpose() +
+        tensors * tensors.transpose() +
         (asks_[i] == irregular ? irregular_regularization : regularization) * whole.squaredNorm() *
             Eigen::Matrix<double, 15, 15>::Identity();
-    const Tensor lacking = volume_share * whole - parts.rowwise().sum();
-    const Eigen::VectorXd change = parts.transpose() * normal.ldlt().solve(lacking);
+    const Tensor lacking = volume_share * whole - tensors.rowwise().sum();
+    const Eigen::VectorXd change = tensors.transpose() * normal.ldlt().solve(lacking);
     for (std::size_t b = 0; b < around.size(); ++b)
       asked_[first_[i] + b] = 1 + change[static_cast<Eigen::Index>(b)];
   }

@@ -63,7 +63,7 @@ class Groups {
   Groups& operator=(Groups&&) noexcept;
   ~Groups();
 
-  bool any() const { return parts_ != nullptr; }
+  bool any() const { return impl_ != nullptr; }
   /// Takes the particles `id` in the kernel's order, with these bonds among them. `two_deep`:
   /// forces depend on the neighbors of neighbors.
   void set_order(std::span<const std::int32_t> id, const BondLists<Real>& bonds, bool two_deep);
@@ -107,9 +107,9 @@ class Groups {
   void restore(const SimulationState& state);
 
  private:
-  struct Parts;
+  struct Impl;
 
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sinew

@@ -26,7 +26,7 @@ std::vector<bool> moving_joints(const Skeleton&, const Motion&, double) { refuse
 std::vector<std::uint8_t> kept_free(const Body&, const AskedFree&) { refuse(); }
 
 template <class Real>
-struct Groups<Real>::Parts {};
+struct Groups<Real>::Impl {};
 
 template <class Real>
 Groups<Real>::Groups() = default;

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include <sinew/kernel/parts.h>
+#include <sinew/kernel/vectors.h>
 
 namespace sinew::kernel {
 

@@ -130,9 +130,10 @@ struct RigidMotion {
   Real velocity[3], spin[3];
 };
 
-/// Parts of pieces move on their own: particles that follow each other. A piece begins with one.
+/// Subpieces move on their own: particles of a piece that follow each other. A piece begins with
+/// one.
 template <class Real>
-struct Parts {
+struct Subpieces {
   const std::uint32_t* first;     ///< particle of each; one longer, ends with the last particle
   const std::uint32_t* of_block;  ///< that of its first particle
   std::uint32_t count;
@@ -221,7 +222,7 @@ struct Step {
   const std::int32_t* id;
   const Real* live;    ///< lanes of the last block: 1 for a particle, 0 for padding
   const Lists* lists;  ///< by piece
-  Parts<Real> parts;
+  Subpieces<Real> subpieces;
   Bindings<Real> bindings;
   Law<Real> law;
   std::uint8_t* careful;  ///< by vector: its pairs needed care in the last step; double precision

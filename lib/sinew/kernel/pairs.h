@@ -2,7 +2,7 @@
 // Forces of the neighbors of a vector of particles: eq. 1, and the sums that eq. 2 needs.
 #pragma once
 
-#include <sinew/kernel/parts.h>
+#include <sinew/kernel/vectors.h>
 
 namespace sinew::kernel {
 

@@ -38,7 +38,7 @@ Vec3 mean_of(const std::vector<std::uint32_t>& particles, const Points& rest) {
 }
 
 Support support_of(const SupportSettings& given, const std::string& path, const Body& body,
-                   const Parts& parts) {
+                   const ParticleParts& parts) {
   Support support;
   support.name = given.name;
   support.particles = parts.particles(given.part, path);
@@ -53,7 +53,7 @@ Support support_of(const SupportSettings& given, const std::string& path, const 
 
 /// A force distributed over all particles of a part.
 Load by_mass(const LoadSettings& given, const std::string& path, const Body& body,
-             const Parts& parts) {
+             const ParticleParts& parts) {
   const std::vector<std::uint32_t> on = parts.particles(given.part, path);
   std::vector<double> weights;
   double mass = 0;
@@ -67,7 +67,7 @@ Load by_mass(const LoadSettings& given, const std::string& path, const Body& bod
 
 /// A force, a traction or a pressure on the faces of a part.
 Load by_area(const LoadSettings& given, const std::string& path, const Body& body,
-             const Parts& parts) {
+             const ParticleParts& parts) {
   const double radius = body.material.pair.r;
   if (given.pressure)
     return pressure_load(given.name, parts.pressed_faces(given.part, path), *given.pressure,
@@ -79,7 +79,7 @@ Load by_area(const LoadSettings& given, const std::string& path, const Body& bod
 }
 
 Load load_of(const LoadSettings& given, const std::string& path, const Body& body,
-             const Parts& parts) {
+             const ParticleParts& parts) {
   const bool on_surface = given.pressure || given.traction || (given.force && given.part.facing);
   Load load = on_surface ? by_area(given, path, body, parts) : by_mass(given, path, body, parts);
   if (given.pivot) load.pivot = *given.pivot;
@@ -113,7 +113,8 @@ Probe part_probe(const std::string& name, std::vector<std::uint32_t> particles) 
 
 }  // namespace
 
-void add_machine(const Settings& settings, const Body& body, const Parts& parts, World& world) {
+void add_machine(const Settings& settings, const Body& body, const ParticleParts& parts,
+                 World& world) {
   for (std::size_t k = 0; k < settings.supports.size(); ++k)
     world.supports.push_back(
         support_of(settings.supports[k], path_of_one("supports", k), body, parts));
@@ -127,7 +128,8 @@ void add_machine(const Settings& settings, const Body& body, const Parts& parts,
   }
 }
 
-std::vector<Probe> probes_of(const Settings& settings, const Body& body, const Parts& parts) {
+std::vector<Probe> probes_of(const Settings& settings, const Body& body,
+                             const ParticleParts& parts) {
   std::vector<Probe> probes;
   for (std::size_t k = 0; k < settings.probes.size(); ++k) {
     const ProbeSettings& given = settings.probes[k];

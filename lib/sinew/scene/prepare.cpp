@@ -15,7 +15,7 @@
 #include <sinew/scene/context.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/groups.h>
-#include <sinew/scene/parts.h>
+#include <sinew/scene/particle_parts.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
@@ -145,7 +145,8 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.lattice = lattice_axes(settings.body);
   body.volume_share = std::move(local.volume_share);
   body.stiffness = std::move(local.stiffness);
-  set_local_materials(settings, Parts(settings, body, files.surface, local.component), body);
+  set_local_materials(settings, ParticleParts(settings, body, files.surface, local.component),
+                      body);
   body.factors =
       bond_factors(body.rest, body.material, body.volume_share, body.stiffness, body.local.volume);
   body.factors.stiffest = std::max(body.factors.stiffest, stiffest_volume(body));

@@ -202,7 +202,7 @@ ObstacleMotion keyed_motion(const std::string& name, Interpolation interpolation
 SceneWorld world_of(const Settings& settings, const SceneFiles& files, const Body& body,
                     std::span<const std::int32_t> component) {
   SceneWorld made;
-  const Parts parts(settings, body, files.surface, component);
+  const ParticleParts parts(settings, body, files.surface, component);
   made.probes = probes_of(settings, body, parts);
   if (settings.world.empty() && settings.supports.empty() && settings.loads.empty()) return made;
   World world;

@@ -29,7 +29,7 @@ constexpr double torn_fraction = 0.5;  // of the tolerance: what leaves where so
 // Stiffness against moving a particle while its neighbors stay, in stiffnesses of a bond.
 constexpr double stiffness_of_place = 4;
 
-/// Units of one part that move by one cubic.
+/// Units of one assembly that move by one cubic.
 class CubicGrowth {
  public:
   /// `relative_residual`: of a unit, of what it may be off a motion.
@@ -223,7 +223,7 @@ void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) co
         if (along[axis] + by < 0 || along[axis] + by >= cells_along_[axis]) continue;
         for (const std::size_t u : at[static_cast<std::size_t>(cell + by * steps[axis])]) {
           Unit& other = units[u];
-          if (other.group >= 0 || !other.fits || other.part != units[seed].part) continue;
+          if (other.group >= 0 || !other.fits || other.assembly != units[seed].assembly) continue;
           if (!moves_with(other, map)) continue;
           other.group = next;
           members.push_back(u);
@@ -246,15 +246,15 @@ void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) co
   }
 }
 
-/// Groups units of each part that move by cubics: those of a group before, or of all of its groups,
-/// as far as they still do, and what moves with them; then what is left.
+/// Groups units of each assembly that move by cubics: those of a group before, or of all of its
+/// groups, as far as they still do, and what moves with them; then what is left.
 void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
-  std::map<int, std::vector<std::size_t>> parts;
+  std::map<int, std::vector<std::size_t>> assemblies;
   for (std::size_t u = 0; u < units.all().size(); ++u)
-    if (units.all()[u].fits) parts[units.all()[u].part].push_back(u);
+    if (units.all()[u].fits) assemblies[units.all()[u].assembly].push_back(u);
   std::int32_t next = 0;
-  for (const auto& part : parts) {
-    const std::vector<std::size_t>& of = part.second;
+  for (const auto& assembly : assemblies) {
+    const std::vector<std::size_t>& of = assembly.second;
     const std::vector<CubicSums> sums = units.cubic_sums(of);
     const auto unit = [&](std::size_t n) -> Unit& { return units.all()[of[n]]; };
     const auto least = static_cast<double>(options_.sizes.min_cubic);
@@ -276,16 +276,16 @@ void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
   }
 }
 
-/// Whether so many free particles follow a part that groups may be worth making anew.
+/// Whether so many free particles follow an assembly that groups may be worth making anew.
 bool DynamicGroups::may_join(const GroupingMoment& now, std::size_t enough) const {
   const std::vector<bool> moves = moving(now, checks_ahead * now.interval);
   const GroupSizes& sizes = options_.sizes;
-  const BoneParts parts(*body_, moves, sizes.cubic_distance.value_or(sizes.joint_distance),
-                        sizes.kept_free);
+  const BoneAssemblies assemblies(
+      *body_, moves, sizes.cubic_distance.value_or(sizes.joint_distance), sizes.kept_free);
   std::vector<std::size_t> found((cell_.size() + particles_per_count - 1) / particles_per_count);
   parallel_for(cell_.size(), particles_per_count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (body_->grouping->group[i] < 0 && parts.of(i) != BoneParts::none)
+      if (body_->grouping->group[i] < 0 && assemblies.of(i) != BoneAssemblies::none)
         ++found[begin / particles_per_count];
   });
   return std::accumulate(found.begin(), found.end(), std::size_t{0}) >= enough;
@@ -295,12 +295,12 @@ bool DynamicGroups::may_join(const GroupingMoment& now, std::size_t enough) cons
 void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
                                std::vector<std::int32_t>& group) const {
   const GroupSizes& sizes = options_.sizes;
-  const BoneParts parts(*body_, asked.moves, cubic ? *sizes.cubic_distance : sizes.joint_distance,
-                        sizes.kept_free);
-  MovingUnits units(*body_, cell_, parts, group, asked.particles);
+  const BoneAssemblies assemblies(
+      *body_, asked.moves, cubic ? *sizes.cubic_distance : sizes.joint_distance, sizes.kept_free);
+  MovingUnits units(*body_, cell_, assemblies, group, asked.particles);
   for (Unit& one : units.all())
     one.fits =
-        asked.torn[static_cast<std::size_t>(one.cell)] == 0 && !asked.bend.contains(one.part);
+        asked.torn[static_cast<std::size_t>(one.cell)] == 0 && !asked.bend.contains(one.assembly);
   if (cubic)
     bend(asked.now, units);
   else
@@ -312,7 +312,7 @@ void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
   if (!cubic) return;
   free_sheets(*body_, group);
   for (std::size_t u = 0; u < units.all().size(); ++u)
-    if (group[units.members(u).front()] >= 0) asked.bend.insert(units.all()[u].part);
+    if (group[units.members(u).front()] >= 0) asked.bend.insert(units.all()[u].assembly);
 }
 
 NewGroups DynamicGroups::regroup(const GroupingMoment& now,

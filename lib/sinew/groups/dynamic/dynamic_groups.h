@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups that change while a body moves. It is divided into cubic cells; those that move affinely
-// with their neighbors, or by one cubic with their part of the body, join a group, those that
-// forces pull out of its motion, or a joint that begins to move, leave it. Rates are judged by what
-// they come to until the next check.
+// with their neighbors, or by one cubic with all that follows their assembly of bones, join a
+// group, those that forces pull out of its motion, or a joint that begins to move, leave it. Rates
+// are judged by what they come to until the next check.
 //
 //     DynamicGroups dynamic(body, motion, options);
 //     if (dynamic.must_split(now, constrained)) next = dynamic.regroup(now, constrained,
@@ -19,7 +19,7 @@
 #include <sinew/body/grouping.h>
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/particles.h>
-#include <sinew/groups/bone_parts.h>
+#include <sinew/groups/bone_assemblies.h>
 #include <sinew/groups/dynamic/moving_units.h>
 #include <sinew/groups/make_grouping.h>
 
@@ -64,7 +64,7 @@ class DynamicGroups {
     const std::vector<bool>& moves;         ///< of each bone, its joint with its parent
     const std::vector<std::uint8_t>& torn;  ///< by cell: nothing of it joins
     const Particles& particles;
-    std::set<int> bend;  ///< parts with cubic groups, which have no affine ones
+    std::set<int> bend;  ///< assemblies with cubic groups, which have no affine ones
   };
 
   bool is_constrained_above(double fraction, const ConstrainedCell& cell) const;

@@ -95,7 +95,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.id = layout_.padded_id();
   step.live = layout_.now.live();
   step.lists = lists_.arrays();
-  step.parts = lists_.parts();
+  step.subpieces = lists_.subpieces();
   step.bindings = bindings();
   step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
@@ -301,13 +301,13 @@ void ListStepper<Real>::follow_units() {
 
 template <class Real>
 void ListStepper<Real>::make_lists() {
-  lists_.make(layout_.now, parts(), bonds_, layout_.units(),
+  lists_.make(layout_.now, subpieces(), bonds_, layout_.units(),
               groups_.seen(layout_.now, layout_.units()));
 }
 
 template <class Real>
-PieceParts ListStepper<Real>::parts() const {
-  return piece_parts(*body_, layout_.id(), block);
+Subpieces ListStepper<Real>::subpieces() const {
+  return subpieces_of(*body_, layout_.id(), block);
 }
 
 /// What keeps its neighbors keeps its order. A second check before the same step, as in a run
@@ -328,7 +328,7 @@ void ListStepper<Real>::sort() {
   VerletLists<Real> before = std::exchange(lists_, lists_.cleared(stepping_.step));
   const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
-  lists_.make_some(layout_.now, parts(), bonds_, layout_.units());
+  lists_.make_some(layout_.now, subpieces(), bonds_, layout_.units());
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   if (sorted > 0.95 * unsorted) {

@@ -81,7 +81,7 @@ class ListStepper final : public Stepper {
   void sort();
   void add_moved();
   void make_lists();
-  PieceParts parts() const;
+  Subpieces subpieces() const;
   void find_slots();
   StepSums sums_of_totals() const;
   Failure failure(const Pose& pose);

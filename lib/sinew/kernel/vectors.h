@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the parts of the kernel share: 3-vectors over lanes, masks, rigid frames, the arctangent.
+// What all of the kernel works with: 3-vectors over lanes, masks, rigid frames, the arctangent.
 #pragma once
 
 #include <sinew/kernel/kernel.h>
