@@ -29,7 +29,7 @@ ARROWS = {
 }
 # Rooms whose headers are not installed -> those that are.
 INTERNAL = {"kernel": ("instruction_set.h",), "lists": ("list_counts.h",), "lammps": (),
-            "groups": ("bone_parts.h", "kept_free.h", "make_grouping.h", "static_groups.h")}
+            "groups": ("bone_assemblies.h", "kept_free.h", "make_grouping.h", "static_groups.h")}
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
     r"(CGAL|boost)/": ("mesh", "repair", "fill"),

@@ -201,9 +201,9 @@ void add_groups(const Prepared& prepared, Results& results, std::vector<std::str
     grouping = grouping_of(small);
   }
   if (grouping->size() == 0) return;
-  const double share = best_speed(nullptr) / best_speed(grouping);
-  results.add("faster_by_groups_at_rest", 1 / share);
-  results.add("groups_pay_from", groups_pay_from(*grouping, *sizes, share), "particles");
+  const double time_ratio = best_speed(nullptr) / best_speed(grouping);
+  results.add("faster_by_groups_at_rest", 1 / time_ratio);
+  results.add("groups_pay_from", groups_pay_from(*grouping, *sizes, time_ratio), "particles");
 }
 
 void add_stepper(const StepperChoice& choice, Results& results) {

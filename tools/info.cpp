@@ -202,7 +202,7 @@ std::vector<std::string> add_mesh_info(const BodyOptions& body, const std::strin
                                        Results& results) {
   const Surface surface = read_body_mesh(body);
   const Diagnosis diagnosis = diagnose(surface);
-  const double ambiguous = ambiguous_share(surface), inside = volume_inside(surface);
+  const double ambiguous = ambiguous_fraction(surface), inside = volume_inside(surface);
   add_counts(surface, results);
   results.add("self_intersections", diagnosis.intersections.pairs,
               diagnosis.intersections.complete ? "" : "at least");

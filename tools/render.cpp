@@ -185,10 +185,10 @@ void write_part(FigureSet& pages, const std::vector<int>& part) {
   }
 }
 
-/// Tells what share of the pictures is drawn.
-class Share {
+/// Tells what fraction of the pictures is drawn.
+class DrawnFraction {
  public:
-  Share(const Options& options, const Common& common, std::size_t pictures)
+  DrawnFraction(const Options& options, const Common& common, std::size_t pictures)
       : lines_(options.percents),
         pictures_(pictures),
         progress_("drawing", progress_style(common.quiet)) {}
@@ -262,8 +262,8 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
     create_folder(figure_set.folder);
   const PicturesLock lock(figure_set.folder);
   Helpers helpers(helpers_for(run, options), words);
-  Share share(options, common, views.size() * pictures_planned(options, runs.front()));
-  figure_set.drawn = [&] { share.add_one(); };
+  DrawnFraction drawn(options, common, views.size() * pictures_planned(options, runs.front()));
+  figure_set.drawn = [&] { drawn.add_one(); };
   int pictures = 0;
   for (std::size_t preset = 0; preset < views.size(); ++preset) {
     FigureSet pages(shown, preset, figure_set);

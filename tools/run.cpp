@@ -61,22 +61,22 @@ Words measure_words(const Options& options, const Common& common, const std::str
   return words;
 }
 
-/// The parts of a run, one after the other, with their results and times.
-class Parts {
+/// The stages of a run, one after the other, with their results and times.
+class Stages {
  public:
-  explicit Parts(std::string folder) { results_.add("folder", folder_ = std::move(folder)); }
+  explicit Stages(std::string folder) { results_.add("folder", folder_ = std::move(folder)); }
 
-  /// Runs one part. It prints its own error message.
+  /// Runs one stage. It prints its own error message.
   Exit run(const std::string& command, const char* stage, const Words& words) {
     const ChildEnd end = run_child(command, words);
     spend(stage);
     return taken(command, end);
   }
 
-  /// Waits for a part that was at work beside the others, and tells its progress.
-  Exit finish(Helper& part, const std::string& command, const char* stage,
+  /// Waits for a stage that was at work beside the others, and tells its progress.
+  Exit finish(Helper& helper, const std::string& command, const char* stage,
               StageProgress& progress) {
-    const ChildEnd end = part.wait([&](const std::string& line) {
+    const ChildEnd end = helper.wait([&](const std::string& line) {
       const bool percent = line.starts_with("percent ");
       if (percent) progress.at(std::stoul(line.substr(8)), 100);
       return percent;
@@ -129,11 +129,11 @@ class Parts {
 
 /// The report includes the pictures, so they are made first; it does not wait for the movie, which
 /// takes the time that they leave.
-Exit show(const Options& options, const Common& common, const std::string& folder, Parts& parts) {
+Exit show(const Options& options, const Common& common, const std::string& folder, Stages& stages) {
   if (!draws) {
     say(common, "sinew: without pictures: this sinew was built without VTK");
-    const Exit exit = parts.run("measure", "measuring", measure_words(options, common, folder));
-    if (exit == Exit::done) parts.add_places(false);
+    const Exit exit = stages.run("measure", "measuring", measure_words(options, common, folder));
+    if (exit == Exit::done) stages.add_places(false);
     return exit;
   }
   StageProgress progress("movie", progress_style(common.quiet));  // counts from here
@@ -142,11 +142,11 @@ Exit show(const Options& options, const Common& common, const std::string& folde
     movie.emplace("render", movie_words(common, folder));
     movie->yield();
   }
-  Exit exit = parts.run("render", "pictures", picture_words(common, folder));
+  Exit exit = stages.run("render", "pictures", picture_words(common, folder));
   if (exit == Exit::done)
-    exit = parts.run("measure", "measuring", measure_words(options, common, folder));
-  if (exit == Exit::done) parts.add_places(!options.no_movie);
-  if (exit == Exit::done && movie) exit = parts.finish(*movie, "render", "movie", progress);
+    exit = stages.run("measure", "measuring", measure_words(options, common, folder));
+  if (exit == Exit::done) stages.add_places(!options.no_movie);
+  if (exit == Exit::done && movie) exit = stages.finish(*movie, "render", "movie", progress);
   if (exit != Exit::done && movie) {
     movie.reset();
     const PicturesLock lock(RunFolder{folder}.pictures());  // tidies up
@@ -160,13 +160,13 @@ Exit show(const Options& options, const Common& common, const std::string& folde
 
 Exit run(const Options& options, const Common& common) {
   const std::string folder = run_folder(options.scene, options.folder).path.string();
-  Parts parts(folder);
-  Exit exit = parts.run("simulate", "simulation", simulate_words(options, common, folder));
+  Stages stages(folder);
+  Exit exit = stages.run("simulate", "simulation", simulate_words(options, common, folder));
   if (exit == Exit::done)
-    exit = show(options, common, folder, parts);
+    exit = show(options, common, folder, stages);
   else if (exit == Exit::unstable)
-    show(options, common, folder, parts);            // the frames before: they show what happened
-  if (exit != Exit::bad_input) parts.print(common);  // else nothing was run
+    show(options, common, folder, stages);            // the frames before: they show what happened
+  if (exit != Exit::bad_input) stages.print(common);  // else nothing was run
   return exit;
 }
 

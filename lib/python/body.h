@@ -9,17 +9,17 @@
 namespace sinew::python {
 
 struct FilledBody {
-  Points points;                                   ///< at rest, m
-  double radius = 0, mass = 0;                     ///< of each particle, m and kg
-  std::vector<std::int32_t> component, neighbors;  ///< as in Filling; empty: made in Python
-  std::vector<double> share = {}, stiffness = {};  ///< as in Filling
+  Points points;                                          ///< at rest, m
+  double radius = 0, mass = 0;                            ///< of each particle, m and kg
+  std::vector<std::int32_t> component, neighbors;         ///< as in Filling; empty: made in Python
+  std::vector<double> volume_share = {}, stiffness = {};  ///< as in Filling
 
   /// The same for prepare().
   BodyFile file() const {
     BodyFile file;
     file.particles = particles_at(points, radius, mass);
     file.component = component;
-    if (!share.empty()) file.share = share;
+    if (!volume_share.empty()) file.volume_share = volume_share;
     if (!stiffness.empty()) file.stiffness = stiffness;
     return file;
   }

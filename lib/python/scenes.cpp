@@ -27,7 +27,7 @@ FilledBody body_of_filling(Filling filling) {
   body.mass = filling.particles.mass;
   body.component = std::move(filling.component);
   body.neighbors = std::move(filling.neighbors);
-  body.share = std::move(filling.share);
+  body.volume_share = std::move(filling.volume_share);
   body.stiffness = std::move(filling.stiffness);
   return body;
 }

@@ -31,11 +31,11 @@ double limit_of(const Settings& settings, const Points& rest) {
   return step_limit(settings.solver.integrator, body.material, body.springs);
 }
 
-/// Returns how much noise has grown after `steps` at `share` of the limit.
-double growth(const Settings& settings, double share, int steps, const Points& rest = bar()) {
+/// Returns how much noise has grown after `steps` at `fraction` of the limit.
+double growth(const Settings& settings, double fraction, int steps, const Points& rest = bar()) {
   const Particles start = test::shaken(rest, test::material_of(settings), 0, noise);
   Simulation simulation =
-      test::simulation_from(settings, rest, start, share * limit_of(settings, rest));
+      test::simulation_from(settings, rest, start, fraction * limit_of(settings, rest));
   try {
     for (int step = 0; step < steps; ++step) simulation.step();
   } catch (const Error&) {
@@ -119,7 +119,7 @@ TEST(StepLimit, UsesTheStifferOfContactAndTension) {
 TEST(StepLimit, OfExplicitEulerIsSetByTheLattice) {
   struct Case {
     DampingForm form;
-    double damping, share, above;
+    double damping, divisor, above;
   };
   for (const Case& one : {Case{DampingForm::paper, 3, 8, 1.15},
                           {DampingForm::symmetric, 3, 8, 1.4},
@@ -127,7 +127,7 @@ TEST(StepLimit, OfExplicitEulerIsSetByTheLattice) {
     const Settings settings = scene(Integrator::explicit_euler, one.form, one.damping);
     const Material material = test::material_of(settings);
     EXPECT_DOUBLE_EQ(limit_of(settings, bar()),
-                     material.damping / (one.share * material.stiffness()));
+                     material.damping / (one.divisor * material.stiffness()));
     EXPECT_LT(growth(settings, 0.97, 400), 10);
     EXPECT_GT(growth(settings, one.above, 500), 1e3);
   }
@@ -144,7 +144,7 @@ TEST(StepLimit, OfExplicitEulerIsSetByStrongDamping) {
 }
 
 TEST(StepLimit, OfExplicitEulerIsSetByWeaklyDampedBones) {
-  // One particle alone, held by an anchor: a mode that only the bone damps.
+  // One particle alone, bound by an anchor: a mode that only the bone damps.
   Settings settings = scene(Integrator::explicit_euler, DampingForm::paper, 5);
   settings.binding.force = BoneForce::anchor;
   settings.binding.stiffness = 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cost of evaluating a clip of 31 joints and 4,500 frames for a pose at every step of a body of
-// 2,965 particles: the time of a step, and the pose's share of it. The pose is timed between two
-// steps, with its data out of the nearer caches, as stepping leaves them.
+// 2,965 particles: the time of a step, and the fraction of it that the pose takes. The pose is
+// timed between two steps, with its data out of the nearer caches, as stepping leaves them.
 //
 //   cmake --build build --target benches
 //   build/bench/pose_bench

@@ -147,7 +147,7 @@ std::shared_ptr<const World> world_of(Variant variant, const Bar& bar, const Poi
     Muscle muscle;
     muscle.name = "all";
     muscle.strength = 0.02 * material.young_modulus();
-    muscle.shares = shares_in({}, rest);
+    muscle.weights = weights_in({}, rest);
     world.muscles = make_muscles(rest, r, {muscle});
   }
   if (variant == Variant::pressed)
@@ -261,9 +261,9 @@ Particles settled(const Scene& scene, Condition condition) {
   if (condition == Condition::bending) return after(scene.approach_steps, scene, scene.start);
   if (condition != Condition::flowed) return after(100, scene, scene.start);
   Particles particles = scene.start;  // overlapping, they would burst apart in full steps
-  for (const double share : {0.1, 0.4, 1.0, 1.0}) {
+  for (const double fraction : {0.1, 0.4, 1.0, 1.0}) {
     Scene slower = scene;
-    slower.step = share * scene.step;
+    slower.step = fraction * scene.step;
     particles = after(100, slower, particles);
   }
   return particles;

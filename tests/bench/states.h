@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Boxes of the paper's proportions in six states, held on two bones end to end: what stepping is
+// Boxes of the paper's proportions in six states, bound to two bones end to end: what stepping is
 // timed on. A state is an analytic map of the rest positions that follows the bones, left to relax.
 #pragma once
 
@@ -13,9 +13,9 @@ namespace sinew::bench {
 
 enum class Condition {
   rest,
-  bent,     ///< by 90 degrees, an even curve of three widths, held there by strong bones
+  bent,     ///< by 90 degrees, an even curve of three widths, kept there by strong bones
   twisted,  ///< by 90 degrees, evenly over the whole length, by its bones
-  crushed,  ///< to 0.75 of its width along x, and held there by strong bones
+  crushed,  ///< to 0.75 of its width along x, and kept there by strong bones
   flowed,   ///< wholly disordered
   bending,  ///< at 45 degrees, by 90 degrees per second
 };
@@ -58,7 +58,7 @@ std::string_view name_of(Variant variant);
 /// Throws bad input for another name.
 Condition condition_named(std::string_view name);
 
-/// A body, its held pose, and the map's positions, from which it relaxes.
+/// A body, its constant pose, and the map's positions, from which it relaxes.
 struct Scene {
   Body body;
   Motion motion;

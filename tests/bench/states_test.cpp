@@ -19,7 +19,7 @@ constexpr std::size_t count = 3000;
 /// Bonds of the undeformed packing, lengths in d0.
 struct Bonds {
   double shortest = 1e9, longest = 0;
-  double parted = 0;  ///< share of b or more
+  double parted = 0;  ///< fraction of b or more
 };
 
 Bonds bonds_of(const Scene& scene, const Points& now) {

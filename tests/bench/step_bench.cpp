@@ -192,10 +192,10 @@ void triad(benchmark::State& state, int threads) {
   state.counters["traffic"] = benchmark::Counter(32 * elements, benchmark::Counter::kIsRate);
 }
 
-template <class... Parts>
-std::string path_of(const Parts&... parts) {
+template <class... Names>
+std::string path_of(const Names&... names) {
   std::string path;
-  ((path += path.empty() ? "" : "/", path += parts), ...);
+  ((path += path.empty() ? "" : "/", path += names), ...);
   return path;
 }
 

@@ -20,7 +20,7 @@ struct Pull {
   Material material;
   BoneSprings springs;
   BonePose pose;
-  HeldParticle particle;
+  ParticleState particle;
 
   explicit Pull(const Vec3& rest, BoneForce form = BoneForce::paper) {
     settings = test::box_scene();
@@ -42,7 +42,7 @@ struct Pull {
   }
 
   BonePull at(const Vec3& position) const {
-    HeldParticle there = particle;
+    ParticleState there = particle;
     there.position = position;
     return bone_pull(springs, binding.influences[0], skeleton.bones[0], pose, there);
   }

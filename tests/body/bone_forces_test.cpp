@@ -134,11 +134,12 @@ TEST(Reactions, BelongToTheBoneThatPulls) {
   // Only the shared particles act on bone 0.
   Vec3 part = Vec3::Zero();
   for (std::size_t i = 0; i < alone.size(); ++i)
-    for (const Influence& held : scene.body.binding.of(i))
-      if (held.bone == 0)
-        part += bone_pull(scene.body.springs[0], held, scene.body.skeleton.bones[0], scene.pose[0],
-                          {scene.body.rest[i], alone.position(i), alone.velocity(i), r})
-                    .force();
+    for (const Influence& influence : scene.body.binding.of(i))
+      if (influence.bone == 0)
+        part +=
+            bone_pull(scene.body.springs[0], influence, scene.body.skeleton.bones[0], scene.pose[0],
+                      {scene.body.rest[i], alone.position(i), alone.velocity(i), r})
+                .force();
   EXPECT_LT((on[0].force + part).norm(), 1e-12);
 }
 

@@ -65,16 +65,16 @@ TEST(Solid, OfAFeatherPushesAsOneOfSteel) {
   const Points at = shaken(rest, 0.3 * r, 3);
   for (const Material& material : materials()) {
     Material soft = material;
-    const double share = 1e-9;
+    const double factor = 1e-9;
     for (double* stiffness : {&soft.pair.k1, &soft.pair.k2, &soft.bond.stiffness, &soft.bond.second,
                               &soft.volume_stiffness})
-      *stiffness *= share;
+      *stiffness *= factor;
     Solid solid(material, rest), feather(soft, rest);
     const Points stiff_forces = pair_forces_of(solid, material, at);
     const Points soft_forces = pair_forces_of(feather, soft, at);
     for (std::size_t i = 0; i < rest.size(); ++i)
-      EXPECT_LT((soft_forces[i] - share * stiff_forces[i]).norm(),
-                1e-12 * share * material.pair.k1 * r * r);
+      EXPECT_LT((soft_forces[i] - factor * stiff_forces[i]).norm(),
+                1e-12 * factor * material.pair.k1 * r * r);
   }
 }
 

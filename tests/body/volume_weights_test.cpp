@@ -61,19 +61,19 @@ TEST(VolumeWeights, AreOneFarFromSurfacesAndNowhereMoreThanTheMost) {
   }
 }
 
-TEST(VolumeWeights, FollowShares) {
+TEST(VolumeWeights, FollowVolumeShares) {
   const Points rest = test::fcc_box(13, 13, 13, r);
   const Material material = material_of(0.4);
-  std::vector<double> share(rest.size(), 1);
+  std::vector<double> volume_share(rest.size(), 1);
   for (std::size_t i = 0; i < rest.size(); ++i)
-    if (rest[i].z() < half_plane_spacing(r)) share[i] = 0.5;
-  const std::vector<double> less = volume_weights(rest, test::nearest(rest, r), material, share);
-  EXPECT_LT(sum(less), sum(share) * (1 + 1e-12));
-  EXPECT_GT(sum(less), 0.97 * sum(share));
+    if (rest[i].z() < half_plane_spacing(r)) volume_share[i] = 0.5;
+  const std::vector<double> less = volume_weights(rest, test::nearest(rest, r), material, volume_share);
+  EXPECT_LT(sum(less), sum(volume_share) * (1 + 1e-12));
+  EXPECT_GT(sum(less), 0.97 * sum(volume_share));
 }
 
 /// Returns the energy of a body of 13 planes over that of an isotropic continuum of its size.
-double energy_share(double ratio, const Mat3& strain, const BondFactors& factors,
+double energy_ratio(double ratio, const Mat3& strain, const BondFactors& factors,
                     const Material& material, const Points& rest) {
   Solid solid(material, rest, numbers(rest.size()), factors);
   const Points now = test::affine(rest, Mat3::Identity() + strain);
@@ -91,9 +91,9 @@ TEST(VolumeWeights, GiveAStrainedBodyTheEnergyOfAContinuum) {
   for (const double ratio : {0.3, 0.4}) {
     const Material material = material_of(ratio);
     BondFactors factors = bond_factors(rest, test::neighbors(rest, material), material, {});
-    EXPECT_NEAR(energy_share(ratio, pulled, factors, material, rest), 1, 0.02);
+    EXPECT_NEAR(energy_ratio(ratio, pulled, factors, material, rest), 1, 0.02);
     factors.volume_weight = own_volume_weights(rest, test::nearest(rest, r), r);
-    EXPECT_LT(energy_share(ratio, pulled, factors, material, rest), 0.96);
+    EXPECT_LT(energy_ratio(ratio, pulled, factors, material, rest), 0.96);
   }
 }
 

@@ -39,18 +39,18 @@ TEST(Background, WorksBesideItsCaller) {
 }
 
 TEST(Background, HoldsNoMoreThanItMay) {
-  std::atomic<int> held = 0, most = 0;
+  std::atomic<int> alive = 0, most = 0;
   {
     Background background(2);
     for (int i = 0; i < 50; ++i)
       background.hand([&] {
-        const std::shared_ptr<int> load(new int(++held), [&](const int* p) { --held, delete p; });
-        most = std::max(most.load(), held.load());
+        const std::shared_ptr<int> load(new int(++alive), [&](const int* p) { --alive, delete p; });
+        most = std::max(most.load(), alive.load());
         return [load] { pause(); };
       });
   }
   EXPECT_LE(most, 2);
-  EXPECT_EQ(held, 0);
+  EXPECT_EQ(alive, 0);
 }
 
 TEST(Background, ThrowsWhatAJobHasThrownAtTheNextCallAndAtEveryLater) {

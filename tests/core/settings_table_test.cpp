@@ -127,14 +127,15 @@ TEST(SettingsTable, HasTheNamesScriptsRelyOn) {
 
 TEST(Range, HoldsItsLimitsButNoNan) {
   const double inf = std::numeric_limits<double>::infinity();
-  const Range above = {0, inf, true}, share = {0, 1, false}, most = {-inf, 3, false};
+  const Range above = {0, inf, true}, fraction = {0, 1, false}, most = {-inf, 3, false};
   EXPECT_FALSE(above.holds(0));
   EXPECT_TRUE(above.holds(1e-300));
-  EXPECT_TRUE(share.holds(0) && share.holds(1));
-  EXPECT_FALSE(share.holds(1.0000001) || share.holds(-1e-9));
-  for (const Range& range : {above, share, most, Range{}}) EXPECT_FALSE(range.holds(std::nan("")));
+  EXPECT_TRUE(fraction.holds(0) && fraction.holds(1));
+  EXPECT_FALSE(fraction.holds(1.0000001) || fraction.holds(-1e-9));
+  for (const Range& range : {above, fraction, most, Range{}})
+    EXPECT_FALSE(range.holds(std::nan("")));
   EXPECT_EQ(above.text(), "> 0");
-  EXPECT_EQ(share.text(), "0 to 1");
+  EXPECT_EQ(fraction.text(), "0 to 1");
   EXPECT_EQ(most.text(), "<= 3");
   EXPECT_EQ(Range{}.text(), "");
 }

@@ -67,22 +67,22 @@ TEST(VolumeMesh, ShapeFunctionsSumTo1AndTheirSlopesAreTheirDerivatives) {
   }
 }
 
-/// Shares of a uniform force have its sum and its moment.
-TEST(VolumeMesh, SharesOfNodesActInTheMiddle) {
+/// Weights of a uniform force have its sum and its moment.
+TEST(VolumeMesh, WeightsOfNodesActInTheMiddle) {
   for (const ElementKind kind : kinds) {
     const VolumeMesh mesh = one(kind);
     Vec3 middle = Vec3::Zero();
     double sum = 0;
-    for (std::size_t k = 0; k < volume_shares(kind).size(); ++k)
-      middle += volume_shares(kind)[k] * mesh.nodes[k], sum += volume_shares(kind)[k];
+    for (std::size_t k = 0; k < nodal_volume_weights(kind).size(); ++k)
+      middle += nodal_volume_weights(kind)[k] * mesh.nodes[k], sum += nodal_volume_weights(kind)[k];
     EXPECT_NEAR(sum, 1, 1e-14);
     EXPECT_LT((middle - center_of(mesh, mesh.elements[0])).norm(), 1e-14);
     for (const ElementFace& face : boundary_faces(mesh)) {
       const auto nodes = face_nodes(mesh.elements[0], face.face);
-      ASSERT_EQ(nodes.size(), face_shares(kind).size());
+      ASSERT_EQ(nodes.size(), nodal_face_weights(kind).size());
       Vec3 of_face = Vec3::Zero();
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        of_face += face_shares(kind)[k] * mesh.nodes[nodes[k]];
+        of_face += nodal_face_weights(kind)[k] * mesh.nodes[nodes[k]];
       EXPECT_LT((of_face - center_of(mesh, face)).norm(), 1e-14);
     }
   }

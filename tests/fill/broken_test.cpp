@@ -26,8 +26,8 @@ std::vector<PolygonSoup> bodies() {
           shapes::refined(read_polygons(creature), 100000)};
 }
 
-/// The share of the whole's inside that the other one takes wrongly, or leaves out.
-double wrong_share(const PolygonSoup& whole, const PolygonSoup& broken) {
+/// The fraction of the whole's inside that the other one takes wrongly, or leaves out.
+double wrong_fraction(const PolygonSoup& whole, const PolygonSoup& broken) {
   const Surface truth = clean(whole);
   const Box box = bounds(truth.triangles.points);
   const Lattice lattice =
@@ -41,23 +41,23 @@ double wrong_share(const PolygonSoup& whole, const PolygonSoup& broken) {
 
 TEST(BrokenMesh, WithoutOneFaceInTwentyLosesATenThousandth) {
   for (const PolygonSoup& body : bodies())
-    EXPECT_LE(wrong_share(body, shapes::without(body, 0.05)), 2e-4);
+    EXPECT_LE(wrong_fraction(body, shapes::without(body, 0.05)), 2e-4);
 }
 
 TEST(BrokenMesh, WithoutOneFaceInFiveLosesThreeThousandths) {
   for (const PolygonSoup& body : bodies())
-    EXPECT_LE(wrong_share(body, shapes::without(body, 0.2)), 3e-3);
+    EXPECT_LE(wrong_fraction(body, shapes::without(body, 0.2)), 3e-3);
 }
 
 TEST(BrokenMesh, WithFlippedFacesLosesNothing) {
   for (const PolygonSoup& body : bodies())
-    EXPECT_EQ(wrong_share(body, shapes::flipped(body, 0.1)), 0);
+    EXPECT_EQ(wrong_fraction(body, shapes::flipped(body, 0.1)), 0);
 }
 
 /// Faces without neighbors cannot be turned back: the winding number has to bear them.
 TEST(BrokenMesh, OfLooseFlippedFacesLosesFewHundredths) {
   const auto body = shapes::sphere(1, 4);
-  EXPECT_LE(wrong_share(body, shapes::torn(shapes::flipped(body, 0.1), 1e-9)), 2e-2);
+  EXPECT_LE(wrong_fraction(body, shapes::torn(shapes::flipped(body, 0.1), 1e-9)), 2e-2);
 }
 
 TEST(BrokenMesh, ThatStillClosesLosesNothing) {
@@ -65,7 +65,7 @@ TEST(BrokenMesh, ThatStillClosesLosesNothing) {
     for (const auto& broken :
          {shapes::together(body, body), shapes::together(body, shapes::inverted(body)),
           shapes::inverted(body), shapes::torn(body, 0), shapes::torn(shapes::inverted(body), 0)})
-      EXPECT_EQ(wrong_share(body, broken), 0);
+      EXPECT_EQ(wrong_fraction(body, broken), 0);
 }
 
 }  // namespace sinew::broken_test

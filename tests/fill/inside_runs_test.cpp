@@ -213,7 +213,7 @@ TEST(InsideRuns, MoveWithTheBody) {
             inside_runs(lattice_about(here, Packing::fcc, 0.05), here).runs);
 }
 
-TEST(AmbiguousShare, TellsWhatHasNoInside) {
+TEST(AmbiguousFraction, TellsWhatHasNoInside) {
   PolygonSoup scattered;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-1, 1);
@@ -222,13 +222,13 @@ TEST(AmbiguousShare, TellsWhatHasNoInside) {
     for (int corner = 0; corner < 3; ++corner)
       scattered.points.emplace_back(place(random), place(random), place(random));
   }
-  const auto share = [](const PolygonSoup& soup) {
+  const auto fraction = [](const PolygonSoup& soup) {
     const Surface surface = clean(soup);
-    return ambiguous_share(lattice_about(surface, Packing::fcc, 0.05), surface);
+    return ambiguous_fraction(lattice_about(surface, Packing::fcc, 0.05), surface);
   };
-  EXPECT_GT(share(scattered), 0.7);
-  EXPECT_EQ(share(shapes::sphere(1, 3)), 0);
-  EXPECT_LT(share(shapes::without(shapes::sphere(1, 3), 0.05)), 0.2);
+  EXPECT_GT(fraction(scattered), 0.7);
+  EXPECT_EQ(fraction(shapes::sphere(1, 3)), 0);
+  EXPECT_LT(fraction(shapes::without(shapes::sphere(1, 3), 0.05)), 0.2);
 }
 
 }  // namespace sinew::inside_runs_test

@@ -65,7 +65,7 @@ TEST(RandomPacking, HasOneParticlePerVolumeStrictlyInside) {
   }
 }
 
-/// The share of particles in shells of the body's volume: as many near the surface as inside.
+/// The fraction of particles in shells of the body's volume: as many near the surface as inside.
 TEST(RandomPacking, IsAsDenseAtTheSurfaceAsInside) {
   const Particles particles = pack(ball(), options_of(Packing::random, 0.03)).particles;
   std::vector<double> depths;
@@ -81,14 +81,14 @@ TEST(RandomPacking, DependsOnItsSeedAndNotOnThreads) {
     Filling filling;
     with_threads(threads, [&] {
       PackOptions options = options_of(Packing::random, 0.08, seed);
-      options.shares = true;
+      options.volume_shares = true;
       filling = pack(bar(), options);
     });
     return filling;
   };
   const Filling one = packed(1, 1), two = packed(1, 3), other = packed(2, 1);
   EXPECT_EQ(state_hash(one.particles), state_hash(two.particles));
-  EXPECT_EQ(one.share, two.share);
+  EXPECT_EQ(one.volume_share, two.volume_share);
   EXPECT_NE(state_hash(one.particles), state_hash(other.particles));
 }
 
@@ -125,12 +125,12 @@ TEST(RandomPacking, FillsOpenSurfacesLayersAndKeepsAClearance) {
     ASSERT_LT(place.norm(), 0.95);
 }
 
-TEST(RandomPacking, SharesAreTheVolume) {
+TEST(RandomPacking, VolumeSharesAreTheVolume) {
   PackOptions options = options_of(Packing::random, 0.06);
-  options.shares = true;
+  options.volume_shares = true;
   const Filling filling = pack(bar(), options);
   double sum = 0;
-  for (const double share : filling.share) sum += share;
+  for (const double volume_share : filling.volume_share) sum += volume_share;
   EXPECT_NEAR(sum * volume_per_particle(0.06) / 2.4, 1, 0.01);
 }
 
@@ -199,16 +199,16 @@ TEST(Isotropy, OfTwelveEqualSpringsIsThatOfTheCrystal) {
   EXPECT_EQ(sheet.modulus_range()[1], 0);
 }
 
-/// Two particles that overlap part until they no longer do, symmetrically; a held one does not
+/// Two particles that overlap part until they no longer do, symmetrically; a fixed one does not
 /// move.
 TEST(Relax, PartsParticlesUntilTheyTouch) {
   Points two = {{0, 0, 0}, {0.3, 0, 0}};
-  relax(two, {.distance = 1, .held = {0, 0}, .enough = 1e-9});
+  relax(two, {.distance = 1, .fixed = {0, 0}, .enough = 1e-9});
   EXPECT_GE((two[1] - two[0]).norm(), 1);
   EXPECT_LT((two[1] - two[0]).norm(), 1.2);
   EXPECT_NEAR((two[1] + two[0]).x(), 0.3, 1e-12);
   Points one = {{0, 0, 0}, {0.3, 0, 0}};
-  relax(one, {.distance = 1, .held = {1, 0}, .enough = 1e-9});
+  relax(one, {.distance = 1, .fixed = {1, 0}, .enough = 1e-9});
   EXPECT_EQ(one[0].norm(), 0);
   EXPECT_GE(one[1].x(), 1);
 }

@@ -66,7 +66,7 @@ TEST(CubicGroups, AnEvenStrainPassesThroughTheirFaces) {
 }
 
 /// How far the accelerations of groups in a step are from those that forces on all of their
-/// particles give them, as a share; of a bar that is bent, and moves.
+/// particles give them, as a fraction; of a bar that is bent, and moves.
 double off_the_forces(Bar bar) {
   const Box box = bounds(bar.rest);
   const double length = box.sizes().maxCoeff();

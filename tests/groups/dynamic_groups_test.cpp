@@ -39,7 +39,7 @@ Simulation begin(const Bar& bar, const DynamicOptions& by = options) {
   return simulation;
 }
 
-double grouped_share(const Simulation& simulation) {
+double grouped_fraction(const Simulation& simulation) {
   const Grouping& grouping = *simulation.body().grouping;
   return static_cast<double>(grouping.grouped()) / static_cast<double>(grouping.group.size());
 }
@@ -48,13 +48,13 @@ TEST(DynamicGroups, ABodyIsOneUntilAJointMoves) {
   const Bar bar = swinging(MaterialModel::bonded);
   Simulation simulation = begin(bar);
   EXPECT_EQ(simulation.body().grouping->size(), 1U);
-  EXPECT_EQ(grouped_share(simulation), 1);
+  EXPECT_EQ(grouped_fraction(simulation), 1);
   while (simulation.time() < 0.5 * start) simulation.step();
-  EXPECT_EQ(grouped_share(simulation), 1);
+  EXPECT_EQ(grouped_fraction(simulation), 1);
   while (simulation.time() < start) simulation.step();
   const Grouping& grouping = *simulation.body().grouping;
   EXPECT_EQ(grouping.size(), 2U);
-  EXPECT_GT(grouped_share(simulation), 0.2);
+  EXPECT_GT(grouped_fraction(simulation), 0.2);
   const double joint = bar.body.skeleton.bones[1].head().z();
   const double free = options.sizes.joint_distance * std::sqrt(bar.body.binding.cross_section[1]);
   for (std::size_t i = 0; i < bar.rest.size(); ++i)
@@ -85,10 +85,10 @@ TEST(DynamicGroups, WhatHasComeBackJoinsAgain) {
   double least = 1;
   while (simulation.time() < 1.2) {
     simulation.step();
-    least = std::min(least, grouped_share(simulation));
+    least = std::min(least, grouped_fraction(simulation));
   }
   EXPECT_LT(least, 0.8);
-  EXPECT_GT(grouped_share(simulation), 0.9);
+  EXPECT_GT(grouped_fraction(simulation), 0.9);
 }
 
 struct Bend {
@@ -192,14 +192,14 @@ TEST(DynamicGroups, WhatABallHitsIsFree) {
   world.obstacles = {floor};
   bar.body.world = std::make_shared<const World>(world);
   Simulation simulation = begin(bar);
-  EXPECT_EQ(grouped_share(simulation), 1);
+  EXPECT_EQ(grouped_fraction(simulation), 1);
   const auto lowest = [&] {
     const std::vector<double>& z = simulation.particles().z;
     return *std::min_element(z.begin(), z.end());
   };
   while (lowest() > -0.05 + r) simulation.step();
   for (int step = 0; step < 100; ++step) simulation.step();
-  EXPECT_LT(grouped_share(simulation), 1);
+  EXPECT_LT(grouped_fraction(simulation), 1);
   const Grouping& grouping = *simulation.body().grouping;
   for (std::size_t i = 0; i < bar.rest.size(); ++i)
     EXPECT_TRUE(bar.rest[i].z() > 4 * r || grouping.group[i] < 0) << i;

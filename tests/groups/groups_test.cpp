@@ -61,13 +61,13 @@ TEST(Groups, AnEvenStrainPassesThroughTheirFaces) {
       Simulation simulation = bar.begin();
       const Forces& forces = simulation.forces();
       const double scale = bar.body.material.stiffness() * r;
-      double most = 0, held = 0;
+      double most = 0, constraint = 0;
       for (std::size_t i = 0; i < bar.rest.size(); ++i) {
         if (is_deep(bar, i)) most = std::max(most, forces.total(i).norm());
-        held = std::max(held, forces.group[i].norm());
+        constraint = std::max(constraint, forces.group[i].norm());
       }
       EXPECT_LT(most, 1e-10 * scale);
-      EXPECT_LT(held, 1e-10 * scale);
+      EXPECT_LT(constraint, 1e-10 * scale);
       simulation.step();
       const Particles& after = simulation.particles();
       double off = 0;
@@ -112,14 +112,14 @@ TEST(Groups, AllOfABodyTurnsAsItWouldAlone) {
   }
 }
 
-/// The share of a wave's energy that a group as thick as `share` of its length throws back: what
-/// moves before the group, beside a bar without, once the wave has passed. The wave is of 20
+/// The fraction of a wave's energy that a group as thick as `fraction` of its length throws back:
+/// what moves before the group, beside a bar without, once the wave has passed. The wave is of 20
 /// diameters along a bar, and at first goes both ways.
-double thrown_back(MaterialModel model, double share, bool cubic = false) {
+double thrown_back(MaterialModel model, double fraction, bool cubic = false) {
   constexpr double length = 40 * r, from = 4 * length, group_at = 6 * length, until = 7 * length;
   Settings settings = test::unbound(scene_of(model));
   settings.material.damping = 0;
-  const double thickness = share * length;
+  const double thickness = fraction * length;
   Bar bar(settings, 9, static_cast<int>(9 * length / half_plane_spacing(r)),
           [&](const Vec3& X) { return std::abs(X.z() - group_at) < thickness / 2 ? 0 : -1; });
   bar = with_cubic(bar, cubic);

@@ -79,7 +79,7 @@ Settings settings() {
   return scene;
 }
 
-double share_of_upper(const Vec3& rest) {
+double weight_of_upper(const Vec3& rest) {
   return std::clamp((rest.z() - joint + blend) / (2 * blend), 0.0, 1.0);
 }
 
@@ -89,11 +89,11 @@ std::vector<std::int32_t> nearest_bones(const Points& points) {
   return bones;
 }
 
-/// Where `rest` is when the two bones carry it in proportion to its share.
+/// Where `rest` is when the two bones carry it in proportion to its weight.
 Vec3 blended(const Vec3& rest, const Skeleton& skeleton, const Pose& pose) {
   const Vec3 lower = carried(rest, skeleton.bones[0].rest, pose[0].frame);
   const Vec3 upper = carried(rest, skeleton.bones[1].rest, pose[1].frame);
-  return lower + share_of_upper(rest) * (upper - lower);
+  return lower + weight_of_upper(rest) * (upper - lower);
 }
 
 }  // namespace
@@ -186,7 +186,7 @@ BodyFile SyntheticRun::body() const {
   body.neighbors.assign(count(), 12);
   body.component.assign(count(), 0);
   body.bone = bone;
-  body.share.emplace(count(), 1.0);
+  body.volume_share.emplace(count(), 1.0);
   body.weight.emplace(count(), 1.0);
   body.meta = "{\"packing\": \"fcc\"}";
   return body;

@@ -79,8 +79,8 @@ class Beam {
   template <class Visit>
   void between(double low, double high, const Vector& u, const Visit& visit) const {
     for (std::size_t i = 0; i < rest_.size(); ++i) {
-      const double share = (rest_[i].z() - base_) / length();
-      if (share > low && share < high) visit(rest_[i], Vec3(u.segment<3>(3 * free_[i])));
+      const double fraction = (rest_[i].z() - base_) / length();
+      if (fraction > low && fraction < high) visit(rest_[i], Vec3(u.segment<3>(3 * free_[i])));
     }
   }
 

@@ -95,10 +95,10 @@ class SlenderBeam {
 
   void move(const Vector& by) {
     // No bond may rotate much in one iteration: Newton's method would leave the beam's branch.
-    const double share = std::min(1.0, length_ / 10 / by.cwiseAbs().maxCoeff());
+    const double fraction = std::min(1.0, length_ / 10 / by.cwiseAbs().maxCoeff());
     for (std::size_t i = 0; i < rest_.size(); ++i)
       if (free_[i] >= 0)
-        now_.set_position(i, now_.position(i) + share * by.segment<3>(3 * free_[i]));
+        now_.set_position(i, now_.position(i) + fraction * by.segment<3>(3 * free_[i]));
   }
 
   Vec3 end() const {

@@ -56,13 +56,13 @@ class Equilibrium {
     const Surface surface = clean(shape.mesh);
     const Filling filling = fill_body(settings, surface);
     rest_ = positions_of(filling.particles);
-    share_ = filling.share;
-    share_.resize(rest_.size(), 1);
+    volume_share_ = filling.volume_share;
+    volume_share_.resize(rest_.size(), 1);
     const Material material = material_of(settings, filling.particles);
     young_modulus_ = settings.material.young_modulus;
     const RestNeighbors near = rest_neighbors(rest_, material.pair.r, material.bond.second > 0);
     bonds_ = make_bonds(rest_, near.all(), material, filling.particles.id,
-                        bond_factors(rest_, near, material, filling.share));
+                        bond_factors(rest_, near, material, filling.volume_share));
     const Box box = bounds(rest_);
     const double half = box.sizes().minCoeff() / 2;
     volume_ = volume_per_particle(filling.particles.radius);
@@ -181,7 +181,7 @@ class Equilibrium {
     });
     double volume = 0;
     for (std::size_t i = 0; i < rest_.size(); ++i)
-      volume += deep_[i] != 0 ? share_[i] * volume_ : 0;
+      volume += deep_[i] != 0 ? volume_share_[i] * volume_ : 0;
     Strain stress = voigt(sum / volume);
     stress.tail<3>() /= 2;
     return stress;
@@ -189,7 +189,7 @@ class Equilibrium {
 
   bool is_box_;
   Points rest_;
-  std::vector<double> share_;
+  std::vector<double> volume_share_;
   std::vector<char> held_, deep_;
   SolidBonds bonds_;
   double young_modulus_ = 0, volume_ = 0;

@@ -55,7 +55,7 @@ int inverted(const Points& now) {
                                         [](const Mat3& F) { return F.determinant() <= 0; }));
 }
 
-/// The share of neighbors at rest that are b or more apart.
+/// The fraction of neighbors at rest that are b or more apart.
 double broken(const Points& now, double b) {
   const auto lists = neighbors_within(box(), rest_neighbor_range(r));
   double pairs = 0, apart = 0;

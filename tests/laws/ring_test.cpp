@@ -64,7 +64,7 @@ Points bent(const Points& rest, double size) {
 }
 
 /// The slowest oscillation that is seen in equidistant samples: of the exponentials that fit them
-/// (Prony's method) and have some share in them.
+/// (Prony's method) and have some amplitude in them.
 std::complex<double> slowest(const std::vector<double>& samples, int exponentials,
                              double interval) {
   const auto count = static_cast<Eigen::Index>(samples.size()), rows = count - exponentials;
@@ -88,12 +88,12 @@ std::complex<double> slowest(const std::vector<double>& samples, int exponential
     for (Eigen::Index k = 0; k < exponentials; ++k)
       powers(n, k) = std::pow(values[k], static_cast<double>(n));
   }
-  const Eigen::VectorXcd share = powers.colPivHouseholderQr().solve(seen);
-  const double most = share.cwiseAbs().maxCoeff();
+  const Eigen::VectorXcd amplitude = powers.colPivHouseholderQr().solve(seen);
+  const double most = amplitude.cwiseAbs().maxCoeff();
   std::complex<double> found(0, 1e300);
   for (Eigen::Index k = 0; k < exponentials; ++k) {
     const std::complex<double> rate = std::log(values[k]) / interval;
-    if (std::abs(share[k]) > 0.1 * most && rate.imag() > 0.02 / interval &&
+    if (std::abs(amplitude[k]) > 0.1 * most && rate.imag() > 0.02 / interval &&
         std::abs(rate) < std::abs(found))
       found = rate;
   }

@@ -59,7 +59,7 @@ TEST(Paper, FlowsInTheSameBend) {
   EXPECT_GT(farthest_from_rest(simulation), r);
 }
 
-/// The share of its volume that a body has lost.
+/// The fraction of its volume that a body has lost.
 double lost_volume(const Simulation& simulation) {
   const RestShape shape = rest_shape(simulation.body().rest, rest_neighbor_range(r));
   double volume = 0, whole = 0;

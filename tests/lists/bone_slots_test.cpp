@@ -41,16 +41,16 @@ struct Scene {
 };
 
 /// Each particle at its place on its leading bone, rotated about that bone by `angle` (degrees), at
-/// `share` of its distance from the axis and displaced by `slide` along it.
-Particles about_their_bones(const Scene& scene, double angle, double share, const Vec3& slide) {
+/// `ratio` of its distance from the axis and displaced by `slide` along it.
+Particles about_their_bones(const Scene& scene, double angle, double ratio, const Vec3& slide) {
   Particles particles = test::shaken(scene.rest, scene.body.material, 0, 0.3);
   for (std::size_t i = 0; i < scene.rest.size(); ++i) {
     const std::size_t lead = scene.body.binding.of(i).front().bone;
     const Bone& bone = scene.body.skeleton.bones[lead];
     const Vec3 local = bone.rest.rotation.transpose() * (scene.rest[i] - bone.head());
     const double turn = radians(angle), c = std::cos(turn), s = std::sin(turn);
-    const Vec3 there(local.x(), share * (c * local.y() - s * local.z()),
-                     share * (s * local.y() + c * local.z()));
+    const Vec3 there(local.x(), ratio * (c * local.y() - s * local.z()),
+                     ratio * (s * local.y() + c * local.z()));
     const RigidFrame& now = scene.pose[lead].frame;
     particles.set_position(i, now.origin + now.rotation * (there + slide));
   }
@@ -117,10 +117,10 @@ TEST(BoneSlots, GiveTheForcesOfBonesOnBothSidesOfHalfATurn) {
 
 TEST(BoneSlots, GiveTheForcesOfBonesThroughTheTaperToTheAxis) {
   const Scene scene(moving_scene(0));
-  for (const double share : {0.7, 0.501, 0.499, 0.4, 0.1, 1e-2, 1e-4, 1e-6})
+  for (const double ratio : {0.7, 0.501, 0.499, 0.4, 0.1, 1e-2, 1e-4, 1e-6})
     for (const double angle : {0.0, 30.0, -100.0, 170.0}) {
-      SCOPED_TRACE(share);
-      expect_reference(scene, about_their_bones(scene, angle, share, {0, 0, 0}), share * r);
+      SCOPED_TRACE(ratio);
+      expect_reference(scene, about_their_bones(scene, angle, ratio, {0, 0, 0}), ratio * r);
     }
 }
 
@@ -167,25 +167,25 @@ void expect_slots_of_binding(const Scene& scene, const std::vector<std::int32_t>
   for (std::size_t k = 0; k < id.size(); ++k) {
     const auto influences = scene.body.binding.of(id[k]);
     double weights = 0, leads = 0;
-    std::size_t held = 0;
+    std::size_t bound = 0;
     for (std::uint32_t s = slots.first[k / block]; s < slots.first[k / block + 1]; ++s) {
       const kernel::Slot slot = slots.slots[s];
-      const auto share = [&](int field) {
-        if (slot.shares < 0) return 1.0;
+      const auto weight_of = [&](int field) {
+        if (slot.weights < 0) return 1.0;
         return static_cast<double>(
-            slots.shares[(slot.shares * kernel::share_fields + field) * block + k % block]);
+            slots.weights[(slot.weights * kernel::weight_fields + field) * block + k % block]);
       };
-      weights += share(kernel::weight);
-      leads += share(kernel::lead);
+      weights += weight_of(kernel::weight);
+      leads += weight_of(kernel::lead);
       for (const Influence& influence : influences)
         if (influence.bone == slot.bone) {
-          ++held;
-          EXPECT_EQ(share(kernel::weight), static_cast<Real>(influence.weight));
+          ++bound;
+          EXPECT_EQ(weight_of(kernel::weight), static_cast<Real>(influence.weight));
         }
     }
     EXPECT_NEAR(weights, 1, 1e-6);
     EXPECT_EQ(leads, 1);
-    EXPECT_EQ(held, influences.size());
+    EXPECT_EQ(bound, influences.size());
   }
 }
 

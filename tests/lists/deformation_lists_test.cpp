@@ -256,16 +256,16 @@ TEST_P(ListsThroughStories, HoldThePairsThatCellsFind) {
 }
 
 /// Every third particle without a bone.
-Body half_held(const Settings& settings, const Points& rest) {
+Body half_bound(const Settings& settings, const Points& rest) {
   Body body = test::make_body(settings, rest);
-  Binding held{{0}, {}, body.binding.cross_section};
+  Binding binding{{0}, {}, body.binding.cross_section};
   for (std::size_t i = 0; i < rest.size(); ++i) {
     const auto influences = body.binding.of(i);
     if (i % 3 != 0)
-      held.influences.insert(held.influences.end(), influences.begin(), influences.end());
-    held.first.push_back(static_cast<std::uint32_t>(held.influences.size()));
+      binding.influences.insert(binding.influences.end(), influences.begin(), influences.end());
+    binding.first.push_back(static_cast<std::uint32_t>(binding.influences.size()));
   }
-  body.binding = held;
+  body.binding = binding;
   return body;
 }
 
@@ -273,7 +273,7 @@ TEST(ListsThrough, ABendOfABodyThatBonesHoldInPart) {
   for (const Precision precision : test::precisions)
     for (const Story& story : {bend(), collide(), crush()}) {
       const Settings settings = test::in(precision, story.settings);
-      const Body body = half_held(settings, story.rest);
+      const Body body = half_bound(settings, story.rest);
       Simulation simulation(body, motion_of(settings, body.skeleton),
                             particles_at(story.rest, r, body.material.mass),
                             stepping_of(settings.solver, test::step_of(settings, body, 0.2)));
@@ -286,7 +286,7 @@ TEST(ListsThrough, ABendOfABodyThatBonesHoldInPart) {
 }
 
 /// A bar on one bone, and twelve particles that fly towards it, past it and at each other: led by
-/// the bar's bone, by another one that rotates, or by none, but not held.
+/// the bar's bone, by another one that rotates, or by none, but not bound.
 struct Snapshots {
   Settings settings;
   Points rest = test::fcc_box(9, 9, 33, r);
@@ -308,15 +308,15 @@ struct Snapshots {
       rest.emplace_back(away * std::cos(angle), away * std::sin(angle), high);
     }
     body = test::make_body(settings, rest);
-    Binding held{{0}, {}, body.binding.cross_section};
+    Binding binding{{0}, {}, body.binding.cross_section};
     for (std::size_t i = 0; i < rest.size(); ++i) {
       Influence influence = body.binding.of(i).front();
       if (i >= bar) influence.bone = moving ? static_cast<int>(i % 3 % 2) : 0;
       if (i >= bar) influence.weight = 1e-12;
-      if (i < bar || !moving || i % 3 != 2) held.influences.push_back(influence);
-      held.first.push_back(static_cast<std::uint32_t>(held.influences.size()));
+      if (i < bar || !moving || i % 3 != 2) binding.influences.push_back(influence);
+      binding.first.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
-    body.binding = held;
+    body.binding = binding;
     particles = particles_at(rest, r, body.material.mass);
     for (std::size_t i = bar; i < rest.size(); ++i)
       particles.set_velocity(

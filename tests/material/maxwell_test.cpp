@@ -16,8 +16,8 @@ using namespace machine;
 
 constexpr double pi = std::numbers::pi;
 
-void relax(Machine& machine, std::vector<double> shares, std::vector<double> times) {
-  machine.settings.material.relaxation_shares = std::move(shares);
+void relax(Machine& machine, std::vector<double> ratios, std::vector<double> times) {
+  machine.settings.material.relaxation_shares = std::move(ratios);
   machine.settings.material.relaxation_times = std::move(times);
 }
 
@@ -48,14 +48,14 @@ double stiffness_at_once() {
 TEST(BranchClock, RelaxesByTheWholeTimeThatPasses) {
   for (const double step : {1e-6, 1e-3, 0.3}) {
     BranchClock clock(0.1);
-    double held = 1, time = 0, least = 1;
+    double remaining = 1, time = 0, least = 1;
     while (time < 1) {
       const double flows = clock.flows(step);
       if (flows > 0) least = std::min(least, flows);
-      held *= 1 - flows;
+      remaining *= 1 - flows;
       time += step;
       clock.advance(step);
-      EXPECT_NEAR(clock.ahead() + time, -0.1 * std::log(held), 1e-9);
+      EXPECT_NEAR(clock.ahead() + time, -0.1 * std::log(remaining), 1e-9);
       EXPECT_LE(std::abs(clock.ahead()), (std::max(step, 0.1 / 256) + step) / 2);
     }
     EXPECT_GT(least, 1.0 / 520);
@@ -94,19 +94,19 @@ TEST(Branches, OfAHeldBodyRelaxByTheSumOfTheirExponentials) {
 
 /// Pulled within 50 ms, then held.
 TEST(Branches, OfAStretchedBarRelaxAsPronySays) {
-  constexpr double by = 1e-4, ramp = 0.05, tau[2] = {0.2, 1}, share[2] = {0.3, 0.25};
+  constexpr double by = 1e-4, ramp = 0.05, tau[2] = {0.2, 1}, ratio[2] = {0.3, 0.25};
   const double stiffness = stiffness_at_once();
   for (const Precision precision : test::precisions) {
     Machine machine = gripped([](double t) { return by * std::clamp(t / ramp, 0.0, 1.0); });
     machine.settings.solver.precision = precision;
-    relax(machine, {share[0], share[1]}, {tau[0], tau[1]});
+    relax(machine, {ratio[0], ratio[1]}, {tau[0], tau[1]});
     machine.settings.material.damping = 30;
     Simulation simulation = machine.begin();
     for (const double time : {0.3, 0.6, 1.5}) {
       while (simulation.time() < time) simulation.step();
-      double left = 1 - share[0] - share[1];
+      double left = 1 - ratio[0] - ratio[1];
       for (int b = 0; b < 2; ++b)
-        left += share[b] * tau[b] / ramp *
+        left += ratio[b] * tau[b] / ramp *
                 (std::exp(-(simulation.time() - ramp) / tau[b]) -
                  std::exp(-simulation.time() / tau[b]));
       EXPECT_NEAR(pull_of(simulation) / (stiffness * by), left, 0.01 * left) << time;
@@ -117,7 +117,7 @@ TEST(Branches, OfAStretchedBarRelaxAsPronySays) {
 /// Creep of a load that grows within T: u(t) = F / K (1 - g (e^(-w (t - T)) - e^(-w t)) / (w T)) /
 /// (1 - g), w = (1 - g) / tau.
 TEST(Branches, OfALoadedBarCreepAsTheStandardLinearSolid) {
-  constexpr double share = 0.5, tau = 0.5, ramp = 0.25;
+  constexpr double ratio = 0.5, tau = 0.5, ramp = 0.25;
   const auto height_of = [](Simulation& simulation, const Machine& machine) {
     double sum = 0;
     for (const std::uint32_t id : machine.top())
@@ -129,29 +129,29 @@ TEST(Branches, OfALoadedBarCreepAsTheStandardLinearSolid) {
   machine.world.loads = {machine.pull(machine.top(), {0, 0, 0.001})};
   Simulation at_rest = machine.at_rest();
   const double at_once = height_of(at_rest, machine);
-  relax(machine, {share}, {tau});
+  relax(machine, {ratio}, {tau});
   machine.settings.material.damping = 20;
   machine.world.loads[0].scale = {{0, ramp}, {0, 1}};
   Simulation simulation = machine.begin();
   for (const double time : {1.0, 2.0, 3.0}) {
     while (simulation.time() < time) simulation.step();
-    const double left = 1 - share, w = left / tau, t = simulation.time();
+    const double left = 1 - ratio, w = left / tau, t = simulation.time();
     const double expected =
-        (1 - share * (std::exp(-w * (t - ramp)) - std::exp(-w * t)) / (w * ramp)) / left;
+        (1 - ratio * (std::exp(-w * (t - ramp)) - std::exp(-w * t)) / (w * ramp)) / left;
     EXPECT_NEAR(height_of(simulation, machine) / at_once, expected, 0.01 * expected) << time;
   }
   machine.world.loads[0].scale = {};
   Simulation long_term = machine.at_rest();
-  EXPECT_NEAR(height_of(long_term, machine) / at_once, 1 / (1 - share), 1e-3);
+  EXPECT_NEAR(height_of(long_term, machine) / at_once, 1 / (1 - ratio), 1e-3);
 }
 
 /// pi K A^2 g w tau / (1 + (w tau)^2) in a cycle.
 TEST(Branches, DissipateByTheLossModulus) {
-  constexpr double amplitude = 2e-4, w = 2 * pi, share = 0.4;
+  constexpr double amplitude = 2e-4, w = 2 * pi, ratio = 0.4;
   const double stiffness = stiffness_at_once();
   for (const double tau : {0.02, 0.15}) {
     Machine machine = gripped([](double t) { return amplitude * (1 - std::cos(w * t)); });
-    relax(machine, {share}, {tau});
+    relax(machine, {ratio}, {tau});
     machine.settings.material.damping = 0;
     Simulation simulation = machine.begin();
     double dissipated = 0;
@@ -159,7 +159,7 @@ TEST(Branches, DissipateByTheLossModulus) {
       while (simulation.time() < cycles) simulation.step();
       dissipated = simulation.energies().dissipation - dissipated;
     }
-    const double loss = share * w * tau / (1 + w * w * tau * tau);
+    const double loss = ratio * w * tau / (1 + w * w * tau * tau);
     const double expected = 3 * pi * stiffness * amplitude * amplitude * loss;
     EXPECT_NEAR(dissipated, expected, 0.03 * expected) << tau;
     const Energies end = simulation.energies();

@@ -37,11 +37,11 @@ std::size_t count_turned(const PolygonSoup& from, const PolygonSoup& to) {
 
 TEST(Orient, TurnsBackWhatIsFlipped) {
   const auto body = sphere(1, 3);
-  for (const double share : {0.01, 0.1, 0.3, 0.45}) {
-    const auto mixed = flipped(body, share);
+  for (const double fraction : {0.01, 0.1, 0.3, 0.45}) {
+    const auto mixed = flipped(body, fraction);
     const Surface surface = clean(mixed);
-    EXPECT_EQ(inward_faces(surface), 0u) << share;
-    EXPECT_EQ(surface.cleaning.faces_turned, count_turned(body, mixed)) << share;
+    EXPECT_EQ(inward_faces(surface), 0u) << fraction;
+    EXPECT_EQ(surface.cleaning.faces_turned, count_turned(body, mixed)) << fraction;
     for (std::size_t i = 0; i < body.polygons.size(); ++i)
       EXPECT_EQ(surface.turned[i], body.polygons[i] != mixed.polygons[i]);
   }

@@ -107,18 +107,18 @@ inline PolygonSoup moved(PolygonSoup soup, const Vec3& by) {
   return soup;
 }
 
-/// A share of the faces, chosen at random, turned.
-inline PolygonSoup flipped(PolygonSoup soup, double share, unsigned seed = 1) {
+/// A fraction of the faces, chosen at random, turned.
+inline PolygonSoup flipped(PolygonSoup soup, double fraction, unsigned seed = 1) {
   std::mt19937 random(seed);
   for (auto& polygon : soup.polygons)
-    if (random() < share * 4294967296.0) std::reverse(polygon.begin(), polygon.end());
+    if (random() < fraction * 4294967296.0) std::reverse(polygon.begin(), polygon.end());
   return soup;
 }
 
-/// A share of the faces, chosen at random, left out.
-inline PolygonSoup without(PolygonSoup soup, double share, unsigned seed = 1) {
+/// A fraction of the faces, chosen at random, left out.
+inline PolygonSoup without(PolygonSoup soup, double fraction, unsigned seed = 1) {
   std::mt19937 random(seed);
-  std::erase_if(soup.polygons, [&](const auto&) { return random() < share * 4294967296.0; });
+  std::erase_if(soup.polygons, [&](const auto&) { return random() < fraction * 4294967296.0; });
   return soup;
 }
 

@@ -68,7 +68,7 @@ TEST(Charts, ShowMetricsOfTheTableAtMostSixAndEachPlanSome) {
   }
 }
 
-TEST(Charts, ShowRadiiSharesAndChangesAsTheySay) {
+TEST(Charts, ShowRadiiFractionsAndChangesAsTheySay) {
   std::vector<FrameMetrics> frames(2);
   for (FrameMetrics& frame : frames)
     for (const Metric& metric : metrics_table()) frame.*metric.value = 0.5;

@@ -75,7 +75,7 @@ FrameState lively_state(const RestBody& body, double time, double tangent, doubl
   return state;
 }
 
-/// There and back, and held at the end; particle 11 is inside out at the third frame.
+/// There and back, and still at the end; particle 11 is inside out at the third frame.
 std::vector<FrameState> lively_run(const RestBody& body, double strength) {
   std::vector<FrameState> run;
   const double tangents[] = {0.02, 0.15, 0.4, 0.25, 0, 0, 0, 0},
@@ -97,10 +97,10 @@ struct Measured {
   Playback playback;
 };
 
-Measured measured(double strength, double share) {
+Measured measured(double strength, double fraction) {
   Measured all{rest_body(lively_input()), {}, {}, {}, {}, {}, {}};
   all.states = lively_run(all.body, strength);
-  all.playback = plan_playback(all.body, all.states.size(), share);
+  all.playback = plan_playback(all.body, all.states.size(), fraction);
   std::vector<std::vector<RigidFrame>> poses;
   std::vector<std::vector<std::int64_t>> worst;
   std::vector<double> times;
@@ -117,11 +117,11 @@ Measured measured(double strength, double share) {
     poses.push_back(state.bones);
     times.push_back(state.time);
   }
-  std::vector<Hold> held = holds(poses, r);
-  for (Hold& hold : held)
+  std::vector<Hold> at_rest = holds(poses, r);
+  for (Hold& hold : at_rest)
     hold.settled =
         settling_time(hold, times, r, [&](std::size_t i) { return all.states[i].positions; });
-  all.summary = summarize(all.frames, r, held);
+  all.summary = summarize(all.frames, r, at_rest);
   add_worst_particles(all.summary, worst);
   return all;
 }

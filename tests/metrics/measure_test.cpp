@@ -200,7 +200,7 @@ TEST(Measure, PairsAreBrokenFromTheInteractionRangeOn) {
   EXPECT_EQ(broken_at(b), 1);
 }
 
-TEST(Measure, BrokenBondsAreAShareOfThoseAtRest) {
+TEST(Measure, BrokenBondsAreAFractionOfThoseAtRest) {
   RestInput input = box_input();
   input.positions = {{0, 0, h}, {2 * r, 0, h}, {4 * r, 0, h}};
   input.bone = {0, 0, 0};

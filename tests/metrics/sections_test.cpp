@@ -42,8 +42,8 @@ std::vector<Section> sections_of(const Triangles& surface) {
                        [](const Vec3& place) { return std::abs(place.z() - length) <= half; });
 }
 
-/// The upper bone's share, linear over a zone of its half width on either side of the joint.
-double upper_share(double z, double zone = half) {
+/// The upper bone's weight, linear over a zone of its half width on either side of the joint.
+double upper_weight(double z, double zone = half) {
   return std::clamp((z - length) / (2 * zone) + 0.5, 0.0, 1.0);
 }
 
@@ -75,7 +75,7 @@ TEST(Sections, ATwistByLinearBlendPinchesThemAsTheSquareOfTheCosine) {
     const Points now = mapped(surface.points, blended(turned(angle, Vec3::UnitZ())));
     for (const Section& section : sections_of(surface)) {
       const double z = (section.bone + section.along) * length;
-      EXPECT_NEAR(area_of(section, now) / section.area, kept(upper_share(z), angle), exact);
+      EXPECT_NEAR(area_of(section, now) / section.area, kept(upper_weight(z), angle), exact);
       if (section.bone == 1 && section.along == 0) {
         EXPECT_NEAR(area_of(section, now) / section.area, std::pow(std::cos(radians(angle / 2)), 2),
                     exact);
@@ -89,7 +89,7 @@ TEST(Sections, ABendByLinearBlendNarrowsThemInOneDirection) {
   const Points now = mapped(surface.points, blended(turned(90, Vec3::UnitY())));
   for (const Section& section : sections_of(surface)) {
     const double z = (section.bone + section.along) * length;
-    EXPECT_NEAR(area_of(section, now) / section.area, std::sqrt(kept(upper_share(z), 90)), exact);
+    EXPECT_NEAR(area_of(section, now) / section.area, std::sqrt(kept(upper_weight(z), 90)), exact);
   }
 }
 

@@ -31,7 +31,7 @@ int run(const std::string& command, std::string* output = nullptr);
 /// The error `job` throws; fails the test when it throws none.
 Error error_of(const std::function<void()>& job);
 
-/// Share of the pixels in a rectangle that are not white.
+/// Fraction of the pixels in a rectangle that are not white.
 double painted(const Image& image, int x, int y, int width, int height);
 double painted(const Image& image);
 

@@ -100,7 +100,7 @@ TEST(Picture, one_painter_draws_the_same_again) {
   EXPECT_EQ(painter.draw(rest, options).rgb, first.rgb);
 }
 
-/// Share of the pixels that differ by more than rounding does.
+/// Fraction of the pixels that differ by more than rounding does.
 double differing(const Image& a, const Image& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.rgb.size(); ++i) count += std::abs(a.rgb[i] - b.rgb[i]) > 3;

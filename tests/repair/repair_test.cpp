@@ -42,9 +42,9 @@ HoleClosing expect_closed(const Triangles& open) {
 }
 
 /// Without each face that chance hits.
-Triangles with_missing(Triangles triangles, double share, unsigned seed) {
+Triangles with_missing(Triangles triangles, double fraction, unsigned seed) {
   std::mt19937 random(seed);
-  std::erase_if(triangles.faces, [&](const auto&) { return random() < share * 4294967296.0; });
+  std::erase_if(triangles.faces, [&](const auto&) { return random() < fraction * 4294967296.0; });
   return triangles;
 }
 
@@ -90,8 +90,8 @@ TEST(CloseHoles, AddsAsManyFacesAsAreMissing) {
 
 TEST(CloseHoles, GivesABallItsVolumeBack) {
   const Triangles ball = triangles_of(shapes::sphere(1, 5));
-  for (const double share : {0.05, 0.2, 0.4}) {
-    const Triangles open = with_missing(ball, share, 7);
+  for (const double fraction : {0.05, 0.2, 0.4}) {
+    const Triangles open = with_missing(ball, fraction, 7);
     const HoleClosing closing = expect_closed(open);
     EXPECT_NEAR(volume(closing.triangles) / volume(ball), 1, 1e-3);
     EXPECT_NEAR(area(closing.triangles) / area(ball), 1, 1e-2);
@@ -246,11 +246,11 @@ TEST(Wrap, TakesDoubledCollapsedAndCrowdedFaces) {
 
 TEST(Wrap, KnowsNoOriginAndNoSize) {
   const Triangles ball = triangles_of(shapes::sphere(1, 3));
-  const double share = volume(wrap(ball, 0.3)) / volume(ball);
+  const double fraction = volume(wrap(ball, 0.3)) / volume(ball);
   for (const double scale : {1e-9, 1e9}) {
     Triangles other = ball;
     for (Vec3& point : other.points) point = scale * (point + Vec3(1000, -2000, 500));
-    EXPECT_NEAR(volume(wrap(other, 0.3 * scale)) / volume(other), share, 0.01);
+    EXPECT_NEAR(volume(wrap(other, 0.3 * scale)) / volume(other), fraction, 0.01);
   }
 }
 

@@ -42,11 +42,12 @@ TEST(Binding, WithoutAZoneGivesEachParticleToOneBone) {
   const Binding binding = bind_to_bones(rest, skeleton, V0, 0);
   for (std::size_t i = 0; i < rest.size(); ++i) {
     ASSERT_EQ(binding.of(i).size(), 1u);
-    const Influence& held = binding.of(i)[0];
-    EXPECT_EQ(held.weight, 1);
-    EXPECT_EQ(held.bone, nearest_bone(skeleton, rest[i]));
-    EXPECT_LT((held.foot_on(skeleton.bones[held.bone]) - Vec3(0, 0, rest[i].z())).norm(), 1e-15);
-    EXPECT_DOUBLE_EQ(held.distance_to(skeleton.bones[held.bone], rest[i]),
+    const Influence& influence = binding.of(i)[0];
+    EXPECT_EQ(influence.weight, 1);
+    EXPECT_EQ(influence.bone, nearest_bone(skeleton, rest[i]));
+    EXPECT_LT((influence.foot_on(skeleton.bones[influence.bone]) - Vec3(0, 0, rest[i].z())).norm(),
+              1e-15);
+    EXPECT_DOUBLE_EQ(influence.distance_to(skeleton.bones[influence.bone], rest[i]),
                      std::hypot(rest[i].x(), rest[i].y()));
   }
 }
@@ -69,7 +70,7 @@ TEST(Binding, CrossSectionIsVolumeBoundOverLength) {
   for (std::size_t i = 0; i < rest.size(); ++i) lower += sharp.bone(i) == 0;
   EXPECT_NEAR(sharp.cross_section[0], lower * V0 / length, 1e-14);
   EXPECT_NEAR(sharp.cross_section[1], (rest.size() - lower) * V0 / length, 1e-14);
-  // A zone shares the middle plane evenly: both bones hold half of all.
+  // A zone shares the middle plane evenly: half of all weights are of either bone.
   const Binding zoned = bind_to_bones(rest, skeleton, V0, 3);
   EXPECT_NEAR(zoned.cross_section[0], rest.size() * V0 / (2 * length), 1e-13);
   EXPECT_NEAR(zoned.cross_section[0], zoned.cross_section[1], 1e-13);
@@ -86,8 +87,10 @@ TEST(Binding, WeightsPassLinearlyOverTheJointZone) {
     const double upper = std::clamp(0.5 + (rest[i].z() - joint) / zone, 0.0, 1.0);
     EXPECT_NEAR(weight_of(binding, i, 1), upper, 1e-12);
     EXPECT_NEAR(weight_of(binding, i, 0), 1 - upper, 1e-12);
-    for (const Influence& held : binding.of(i))  // on the axis, extended within the zone
-      EXPECT_LT((held.foot_on(skeleton.bones[held.bone]) - Vec3(0, 0, rest[i].z())).norm(), 1e-14);
+    for (const Influence& influence : binding.of(i))  // on the axis, extended within the zone
+      EXPECT_LT(
+          (influence.foot_on(skeleton.bones[influence.bone]) - Vec3(0, 0, rest[i].z())).norm(),
+          1e-14);
   }
 }
 
@@ -115,13 +118,13 @@ TEST(Binding, WeightsArePositiveSumToOneAndBeginWithTheHeaviest) {
     const Skeleton skeleton = tree();
     const Binding binding = bind_to_bones(rest, skeleton, 1e-5, zone);
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      const auto held = binding.of(i);
-      ASSERT_FALSE(held.empty());
-      EXPECT_EQ(binding.bone(i), held[0].bone);
+      const auto influences = binding.of(i);
+      ASSERT_FALSE(influences.empty());
+      EXPECT_EQ(binding.bone(i), influences[0].bone);
       double sum = 0;
-      for (const Influence& one : held) {
+      for (const Influence& one : influences) {
         EXPECT_GT(one.weight, 0);
-        EXPECT_LE(one.weight, held[0].weight);
+        EXPECT_LE(one.weight, influences[0].weight);
         sum += one.weight;
       }
       EXPECT_NEAR(sum, 1, 1e-12);
@@ -162,17 +165,17 @@ TEST(Binding, OfACoreLeavesFartherParticlesFree) {
   options.core_radius = 3 * r;
   const Skeleton skeleton = two_bones();
   const Binding binding = bind_to_bones(rest, skeleton, options);
-  double held = 0;
+  double in_core = 0;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     const bool core = std::hypot(rest[i].x(), rest[i].y()) <= 3 * r;
     EXPECT_EQ(binding.bone(i) != no_bone, core);
     EXPECT_EQ(binding.weight(i) > 0, core);
-    held += core;
+    in_core += core;
   }
-  ASSERT_GT(held, 0);
+  ASSERT_GT(in_core, 0);
   const double volume = binding.cross_section[0] * skeleton.bones[0].length +
                         binding.cross_section[1] * skeleton.bones[1].length;
-  EXPECT_NEAR(volume, held * V0, 1e-12);
+  EXPECT_NEAR(volume, in_core * V0, 1e-12);
 }
 
 TEST(Binding, OfRegionsGoesBeforeAllElseAndTheLastCounts) {

@@ -18,10 +18,10 @@ struct Sheet {
     for (int i = 0; i <= 20; ++i)
       for (int j = 0; j <= 20; ++j) {
         vertices.emplace_back(0.05 * i, 0.05 * j, 0);
-        const double share = 0.05 * i;
-        if (share >= 0.5 && share > 0) weights.weights.push_back({1, share});
-        if (share < 1) weights.weights.push_back({0, 1 - share});
-        if (share < 0.5 && share > 0) weights.weights.push_back({1, share});
+        const double weight = 0.05 * i;
+        if (weight >= 0.5 && weight > 0) weights.weights.push_back({1, weight});
+        if (weight < 1) weights.weights.push_back({0, 1 - weight});
+        if (weight < 0.5 && weight > 0) weights.weights.push_back({1, weight});
         weights.first.push_back(static_cast<std::uint32_t>(weights.weights.size()));
       }
   }

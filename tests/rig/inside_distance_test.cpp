@@ -60,8 +60,8 @@ Binding bound(const Points& rest, bool inside, double joint_zone = 0) {
 int strangers(const Hand& hand, const Binding& binding, double height) {
   int count = 0;
   for (std::size_t i = hand.left; i < hand.crumb; ++i)
-    for (const Influence& held : binding.of(i))
-      count += hand.rest[i].z() > height && held.bone == (i < hand.right ? 2 : 1);
+    for (const Influence& influence : binding.of(i))
+      count += hand.rest[i].z() > height && influence.bone == (i < hand.right ? 2 : 1);
   return count;
 }
 

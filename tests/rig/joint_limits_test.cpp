@@ -10,7 +10,7 @@
 namespace sinew::joint_limits_test {
 
 /// One bone along `axis` that may lean 40 degrees and turn from -20 to 30.
-Skeleton held_bone(const Vec3& axis) {
+Skeleton limited_bone(const Vec3& axis) {
   Settings settings;
   settings.bones = {{"b", "", Vec3(1, 2, 3), Vec3(Vec3(1, 2, 3) + axis)}};
   settings.bones[0].limits.swing = 40;
@@ -51,7 +51,7 @@ double wrapped(double angle) { return std::remainder(angle, 2 * pi); }
 
 TEST(JointLimits, RestrictTheBone) {
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, -2, 0.5)}) {
-    const Skeleton skeleton = held_bone(axis);
+    const Skeleton skeleton = limited_bone(axis);
     bool swing = false, twist = false;
     for (double time = 0; time <= 7; time += 0.01) {
       const Angles angles = angles_of(skeleton, pose_at(skeleton, wild(), time)[0]);
@@ -66,7 +66,7 @@ TEST(JointLimits, RestrictTheBone) {
 }
 
 TEST(JointLimits, LeaveAloneWhatTheyAllow) {
-  const Skeleton skeleton = held_bone(Vec3::UnitZ());
+  const Skeleton skeleton = limited_bone(Vec3::UnitZ());
   Motion motion = wild();
   for (Quat& value : motion.tracks[0].rotation.values)
     value = rotation_by(0.08 * rotation_vector(value));
@@ -78,9 +78,9 @@ TEST(JointLimits, LeaveAloneWhatTheyAllow) {
   EXPECT_TRUE(limits_passed(skeleton, motion).empty());
 }
 
-TEST(JointLimits, VelocitiesAreThoseOfTheHeldMotion) {
+TEST(JointLimits, VelocitiesAreThoseOfTheLimitedMotion) {
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, -2, 0.5)}) {
-    const Skeleton skeleton = held_bone(axis);
+    const Skeleton skeleton = limited_bone(axis);
     int bad = 0, samples = 0;  // near a limit the difference quotient is not the rate
     for (double time = 0.05; time < 7; time += 0.0123) {
       const double h = 1e-6;
@@ -96,7 +96,7 @@ TEST(JointLimits, VelocitiesAreThoseOfTheHeldMotion) {
 }
 
 TEST(JointLimits, ReportBoneTimeAndExcess) {
-  Skeleton skeleton = held_bone(Vec3::UnitZ());
+  Skeleton skeleton = limited_bone(Vec3::UnitZ());
   Motion motion;
   motion.preroll = 0.5;
   Track track;

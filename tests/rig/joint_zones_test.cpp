@@ -26,7 +26,7 @@ std::vector<double> weights_at(const Skeleton& skeleton, const JointZones& zones
   std::vector<double> weights(skeleton.size(), 0.0);
   const auto distance = [&](int bone) { return distance_to(skeleton.bones[bone], point); };
   for (const BoneWeight& one :
-       shares_in_zones(zones, nearest_bone(skeleton, point), point, distance))
+       weights_in_zones(zones, nearest_bone(skeleton, point), point, distance))
     weights[one.bone] += one.weight;
   return weights;
 }
@@ -51,7 +51,7 @@ double largest_change(const Skeleton& skeleton, const Vec3& center, double radiu
   return most;
 }
 
-// Shares rise by 1 over a zone; where several meet, and near the zone's end, by a few times that.
+// Weights rise by 1 over a zone; where several meet, and near the zone's end, by a few times that.
 constexpr double smooth = 40 * step / zone;
 
 TEST(JointZones, WeightsDoNotJumpWhereOneBoneHasTwoChildren) {

@@ -37,11 +37,11 @@ struct Prism {
   }
 
   void add(int slice, int corner) {
-    const double share = static_cast<double>(slice) / slices;
+    const double weight = static_cast<double>(slice) / slices;
     const double x = corner == 1 || corner == 2 ? width / 2 : -width / 2;
-    surface.points.emplace_back(x, corner >= 2 ? width / 2 : -width / 2, share);
-    weights.weights.push_back({0, 1 - share});
-    weights.weights.push_back({1, share});
+    surface.points.emplace_back(x, corner >= 2 ? width / 2 : -width / 2, weight);
+    weights.weights.push_back({0, 1 - weight});
+    weights.weights.push_back({1, weight});
     weights.first.push_back(static_cast<std::uint32_t>(weights.weights.size()));
   }
 
@@ -69,13 +69,13 @@ struct Prism {
   Points dual(const Pose& pose) const {
     return dual_quaternion_skinned(surface.points, weights, skeleton, pose);
   }
-  /// Returns the share of the volume at rest.
-  double share(Points points) const {
+  /// Returns the fraction of the volume at rest.
+  double volume_ratio(Points points) const {
     return volume({std::move(points), surface.faces}) / volume(surface);
   }
 };
 
-/// Area of the section in the middle as a share of that at rest.
+/// Area of the section in the middle as a fraction of that at rest.
 double middle_section(const Points& points) {
   const int first = 4 * (slices / 2);
   const Vec3 diagonal = points[first + 2] - points[first];
@@ -91,7 +91,7 @@ TEST(LinearBlendSkinning, LosesTheVolumeOfATwist) {
   for (const double angle : angles) {
     const Points points = prism.linear(prism.turned(Vec3::UnitZ(), angle));
     const double c = std::cos(radians(angle)), half = std::cos(radians(angle) / 2);
-    EXPECT_NEAR(prism.share(points), 1 - (1 - c) / 3, discrete) << angle;
+    EXPECT_NEAR(prism.volume_ratio(points), 1 - (1 - c) / 3, discrete) << angle;
     EXPECT_NEAR(middle_section(points), half * half, 1e-12) << angle;
   }
 }
@@ -99,7 +99,7 @@ TEST(LinearBlendSkinning, LosesTheVolumeOfATwist) {
 TEST(LinearBlendSkinning, LosesTheVolumeOfABend) {
   const Prism prism;
   for (const double angle : angles)
-    EXPECT_NEAR(prism.share(prism.linear(prism.turned(Vec3::UnitY(), angle))),
+    EXPECT_NEAR(prism.volume_ratio(prism.linear(prism.turned(Vec3::UnitY(), angle))),
                 1 - (1 - std::cos(radians(angle))) / 6, discrete)
         << angle;
 }
@@ -109,7 +109,7 @@ TEST(DualQuaternionSkinning, KeepsTheVolumeOfTwistsAndBends) {
   for (const double angle : angles)
     for (const Vec3& axis : {Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitY())}) {
       const Points points = prism.dual(prism.turned(axis, angle));
-      EXPECT_NEAR(prism.share(points), 1, discrete) << angle;
+      EXPECT_NEAR(prism.volume_ratio(points), 1, discrete) << angle;
       EXPECT_NEAR(middle_section(points), 1, 1e-9) << angle;
     }
 }

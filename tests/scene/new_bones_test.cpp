@@ -40,7 +40,7 @@ std::vector<Limb> limbs(const Triangles& surface) { return limbs_of(curve_skelet
 
 LimbRig rig_of(const Triangles& surface) { return bones_of(limbs(surface), {.radius = radius}); }
 
-double share_inside(const Skeleton& skeleton, const Triangles& surface) {
+double fraction_inside(const Skeleton& skeleton, const Triangles& surface) {
   std::vector<std::array<Vec3, 3>> faces;
   for (const auto& [a, b, c] : surface.faces)
     faces.push_back({surface.points[a], surface.points[b], surface.points[c]});
@@ -75,7 +75,7 @@ TEST_P(Star, HasAChainToTheEndOfEveryArm) {
   EXPECT_EQ(tips_of(limbs(surface)), static_cast<std::size_t>(GetParam()));
   const LimbRig rig = rig_of(surface);
   const Skeleton skeleton = make_skeleton(rig.bones);  // refuses parents that come later
-  EXPECT_GE(share_inside(skeleton, surface), 0.9);
+  EXPECT_GE(fraction_inside(skeleton, surface), 0.9);
   int roots = 0;
   for (const Bone& bone : skeleton.bones) roots += bone.parent == no_bone;
   EXPECT_EQ(roots, 1);
@@ -213,9 +213,9 @@ TEST(Solids, AreClosedAndHaveTheirVolume) {
   const Vec3 from(1, 2, 3), to(1.2, 1.9, 3.3);
   const Triangles capsule = capsule_between(from, to, 0.05);
   for (const Vec3& point : capsule.points) {
-    const double share =
+    const double fraction =
         std::clamp((point - from).dot(to - from) / (to - from).squaredNorm(), 0., 1.);
-    EXPECT_NEAR((point - from - share * (to - from)).norm(), 0.05, 1e-9);
+    EXPECT_NEAR((point - from - fraction * (to - from)).norm(), 0.05, 1e-9);
   }
 }
 

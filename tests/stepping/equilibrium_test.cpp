@@ -53,10 +53,10 @@ TEST(Relaxation, ReactionsBalanceLoadsAndWeight) {
   for (const MaterialModel model : {paper, bonded, bonded_volume}) {
     const Machine machine = cantilever(model);
     Simulation simulation = machine.at_rest();
-    const Vec3 held = sum_of(simulation.support_reactions()),
+    const Vec3 reaction = sum_of(simulation.support_reactions()),
                loads = sum_of(simulation.load_reactions());
-    const double largest = std::max({held.norm(), loads.norm(), machine.weight().norm()});
-    EXPECT_LT((held + loads + machine.weight()).norm(), 1e-6 * largest);
+    const double largest = std::max({reaction.norm(), loads.norm(), machine.weight().norm()});
+    EXPECT_LT((reaction + loads + machine.weight()).norm(), 1e-6 * largest);
     EXPECT_LE(simulation.relaxation()->last().residual, 1e-6);
     EXPECT_EQ(test::largest_speed(simulation.particles()), 0);
   }

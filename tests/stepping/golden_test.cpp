@@ -232,11 +232,11 @@ TEST(Golden, WorldsPushAsTheyDid) {
     whole.name = "whole";
     whole.strength = 600;
     whole.activation = {{0, 0.02}, {0, 1}};
-    whole.shares = shares_in({}, muscles.rest);
+    whole.weights = weights_in({}, muscles.rest);
     part.name = "part";
     part.direction = {1, 0.2, 0};
     part.strength = 400;
-    part.shares = shares_in({SphereShape{{0, 0, 0.02}, 0.015}, 0.02}, muscles.rest);
+    part.weights = weights_in({SphereShape{{0, 0, 0.02}, 0.015}, 0.02}, muscles.rest);
     muscles.world.muscles = make_muscles(muscles.rest, r, {whole, part});
     text += muscles.end();
   }

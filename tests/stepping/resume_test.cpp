@@ -153,7 +153,7 @@ World surrounded(const std::string& name, Integrator integrator) {
   Muscle muscle;
   muscle.strength = 200;
   muscle.activation = {{0, 0.05}, {0, 1}};
-  muscle.shares = shares_in({}, world.rest);
+  muscle.weights = weights_in({}, world.rest);
   around.muscles = make_muscles(world.rest, r, {muscle});
   grip(world.rest, around);
   world.around = std::make_shared<const sinew::World>(around);

@@ -74,22 +74,22 @@ TEST(ContinuumLimit, OfMoreSizesAParabolaIsExactToo) {
 
 /// How many of 1,000 limits of values that scatter by .03 about a law that tends to 2 are within
 /// their error; and the error on average.
-struct Held {
+struct Coverage {
   int limits = 0;
   double error = 0;
 };
 
 template <class Law>
-Held held_by_error(const std::vector<double>& sizes, double deviation, const Law& law) {
+Coverage covered_by_error(const std::vector<double>& sizes, double deviation, const Law& law) {
   std::mt19937 random(1);
   std::normal_distribution<double> scatter(0, deviation);
-  Held held;
+  Coverage coverage;
   for (int trial = 0; trial < 1000; ++trial) {
     const auto limit = limit_by(sizes, [&](double h) { return law(h) + scatter(random); });
-    held.limits += std::abs(limit.value - 2) <= limit.error;
-    held.error += limit.error / 1000;
+    coverage.limits += std::abs(limit.value - 2) <= limit.error;
+    coverage.error += limit.error / 1000;
   }
-  return held;
+  return coverage;
 }
 
 TEST(ContinuumLimit, ValuesThatScatterAreWithinTheErrorNineTimesOfTen) {
@@ -97,12 +97,14 @@ TEST(ContinuumLimit, ValuesThatScatterAreWithinTheErrorNineTimesOfTen) {
   const std::vector<double> four = {0.006, 0.01, 0.014, 0.02};
   for (const auto& sizes : {four, eight})
     for (const double deviation : {0.03, 0.003}) {
-      const Held first = held_by_error(sizes, deviation, [](double h) { return 2 - 10 * h; });
-      const Held second = held_by_error(sizes, deviation, [](double h) { return 2 + 500 * h * h; });
-      const Held none = held_by_error(sizes, deviation, [](double) { return 2.0; });
-      for (const Held& held : {first, second, none}) {
-        EXPECT_GT(held.limits, 870) << sizes.size() << " values, " << deviation;
-        EXPECT_LT(held.error, 10 * deviation);  // an error that is never exceeded tells nothing
+      const Coverage first =
+          covered_by_error(sizes, deviation, [](double h) { return 2 - 10 * h; });
+      const Coverage second =
+          covered_by_error(sizes, deviation, [](double h) { return 2 + 500 * h * h; });
+      const Coverage none = covered_by_error(sizes, deviation, [](double) { return 2.0; });
+      for (const Coverage& coverage : {first, second, none}) {
+        EXPECT_GT(coverage.limits, 870) << sizes.size() << " values, " << deviation;
+        EXPECT_LT(coverage.error, 10 * deviation);  // an error that is never exceeded tells nothing
       }
     }
 }

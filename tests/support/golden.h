@@ -25,9 +25,9 @@ inline void expect_golden(const std::string& file, const std::string& text) {
   const auto path = std::filesystem::path(SINEW_SOURCE_DIR) / "tests" / file;
   if (const char* wish = std::getenv("SINEW_GOLDEN"); wish && std::string(wish) == "update")
     put(path, text);
-  std::istringstream found(text), held(text_of(path));
+  std::istringstream found(text), expected(text_of(path));
   std::string line, golden;
-  for (int number = 1; std::getline(held, golden); ++number) {
+  for (int number = 1; std::getline(expected, golden); ++number) {
     ASSERT_TRUE(std::getline(found, line)) << file << " ends before line " << number;
     ASSERT_EQ(line, golden) << file << ":" << number << " is not what it was; see golden.h";
   }

@@ -53,7 +53,7 @@ class Machine {
     return ids_where(rest, [z](const Vec3& p) { return p.z() > z - 0.5 * r; });
   }
 
-  /// A force shared equally by particles.
+  /// A force distributed equally over particles.
   Load pull(const std::vector<std::uint32_t>& on, const Vec3& force) const {
     return force_load("pull", on, std::vector<double>(on.size(), 1.0), force, rest);
   }

@@ -57,11 +57,11 @@ inline std::vector<Around> all_surroundings() {
     whole.name = "whole";
     whole.strength = 600;
     whole.activation = {{0, 0.02}, {0, 1}};
-    whole.shares = shares_in({}, rest);
+    whole.weights = weights_in({}, rest);
     part.name = "part";
     part.direction = {1, 0.2, 0};
     part.strength = 400;
-    part.shares = shares_in({SphereShape{rest.back(), 3 * r}, 0.02}, rest);
+    part.weights = weights_in({SphereShape{rest.back(), 3 * r}, 0.02}, rest);
     world.muscles = make_muscles(rest, r, {whole, part});
   };
   const auto machine = [](const Points& rest, const Material&, World& world) {

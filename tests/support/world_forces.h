@@ -21,7 +21,7 @@ struct WorldPowers {
   double obstacles = 0, fields = 0, muscles = 0, lost = 0;
 };
 
-inline HeldParticle particle_of(const Particles& particles, std::size_t i) {
+inline ParticleState particle_of(const Particles& particles, std::size_t i) {
   return {{}, particles.position(i), particles.velocity(i), particles.radius};
 }
 
@@ -49,7 +49,7 @@ inline void stop_sliding(const Particles& particles, const World& world, const W
                          const Points& others, double step, WorldForces& forces) {
   for (std::size_t i = 0; i < particles.size(); ++i) {
     std::vector<Reaction> without(world.obstacles.size()), with(world.obstacles.size());
-    const HeldParticle one = particle_of(particles, i);
+    const ParticleState one = particle_of(particles, i);
     const ParticleWorld bare = world_on(one, particles.mass, world, now, Vec3::Zero(), 0, without);
     const ParticleWorld whole =
         world_on(one, particles.mass, world, now, others[i] - bare.force(), step, with);

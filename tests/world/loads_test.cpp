@@ -131,9 +131,9 @@ TEST(Loads, TurnWithTheSurfaceOnlyIfTheyArePressures) {
         skin.points[face[2]].z() == z)
       top.faces.push_back(face);
   const Load pressure = pressure_load("press", top, 1000, rest, r);
-  const AreaShares shares = area_shares(top, rest, r);
+  const AreaWeights weights = area_weights(top, rest, r);
   const Load traction =
-      force_load("pull", shares.particles, shares.shares, {0, 0, -1000 * shares.area}, rest);
+      force_load("pull", weights.particles, weights.weights, {0, 0, -1000 * weights.area}, rest);
   const Mat3 turn = test::turned({0, 1, 0}, 90);
   const Points now = test::affine(rest, turn);
   const double side = bounds(skin.points).sizes().x(), area = side * side;
@@ -175,7 +175,7 @@ struct Followed {
 Followed followed(const Points& rest, const std::function<Vec3(const Vec3&, int)>& motion) {
   constexpr int steps = 320;
   const Load load = pressure_load("press", around(rest), 2000, rest, r);
-  LoadNow held(load);
+  LoadNow kept(load);
   Points sum(load.particles.size(), Vec3::Zero());
   double size = 0;
   Followed result;
@@ -183,11 +183,11 @@ Followed followed(const Points& rest, const std::function<Vec3(const Vec3&, int)
     const auto position = [&](std::size_t k) { return motion(rest[load.particles[k]], step); };
     LoadNow exact(load);
     exact.find(1, position, false);
-    if (held.find(1, position, true)) ++result.found;
+    if (kept.find(1, position, true)) ++result.found;
     double off = 0;
     size = 0;
     for (std::size_t k = 0; k < sum.size(); ++k) {
-      const Vec3 difference = held.force(k) - exact.force(k);
+      const Vec3 difference = kept.force(k) - exact.force(k);
       sum[k] += difference / steps;
       off += difference.squaredNorm();
       size += exact.force(k).squaredNorm();
@@ -272,9 +272,9 @@ TEST(Loads, OfPressuresAreThoseOfTheMomentInEquilibrium) {
   Vec3 moment = Vec3::Zero();
   for (std::size_t k = 0; k < load.particles.size(); ++k)
     moment += (now[load.particles[k]] - load.pivot).cross(exact.force(k));
-  const Reaction held = simulation.load_reactions()[0];
-  EXPECT_LT((held.force - force_of(load, exact)).norm(), 1e-6 * exact.size());
-  EXPECT_LT((held.moment - moment).norm(), 1e-6 * exact.size() * r);
+  const Reaction reaction = simulation.load_reactions()[0];
+  EXPECT_LT((reaction.force - force_of(load, exact)).norm(), 1e-6 * exact.size());
+  EXPECT_LT((reaction.moment - moment).norm(), 1e-6 * exact.size() * r);
 }
 
 /// A load that grows does what a body stores and loses.
@@ -318,7 +318,7 @@ TEST(Loads, BadOnesAreRefused) {
       },
       {"load 'pull' acts on nothing"});
   Load load = force_load("pull", {1}, {2}, {0, 0, 1}, rest);
-  EXPECT_EQ(load.share[0], 1);
+  EXPECT_EQ(load.weight[0], 1);
   load.scale = {{1, 0}, {0, 1}};
   test::expect_bad_input([&] { check_load(load); }, {"load 'pull' has a key at 0 s"});
   load.scale = {};

@@ -19,7 +19,7 @@ Muscle everywhere(const Points& rest, const Vec3& direction) {
   muscle.name = "biceps";
   muscle.direction = direction;
   muscle.strength = S;
-  muscle.shares = shares_in(Region{}, rest);
+  muscle.weights = weights_in(Region{}, rest);
   return muscle;
 }
 
@@ -66,7 +66,7 @@ TEST(Muscles, TheVirialStressOfAnAffineBodyIsTheActiveStressAlongTheTurnedFiber)
   for (const Points& rest : {test::fcc_ball(6, r), test::hcp_ball(6, r)})
     for (const std::uint32_t i : {nearest_the_middle(rest), std::uint32_t{0}}) {
       Muscle muscle = everywhere(rest, 3 * aslant);
-      muscle.shares = {{i, 1}};
+      muscle.weights = {{i, 1}};
       const Muscles muscles = make_muscles(rest, r, {muscle});
       const Mat3 F = Mat3::Identity() + 0.6 * test::random_matrix(random);
       const Points now = test::affine(rest, F, {1, 2, 3});
@@ -102,7 +102,7 @@ TEST(Muscles, InnerParticlesOfAnAffineBodyFeelNoForce) {
 TEST(Muscles, MomentumAndAngularMomentumAreKept) {
   const Points rest = test::hcp_ball(6, r);
   Muscle soft = everywhere(rest, aslant);
-  soft.shares = shares_in({SphereShape{{3 * r, 0, 0}, 2 * r}, 3 * r}, rest);
+  soft.weights = weights_in({SphereShape{{3 * r, 0, 0}, 2 * r}, 3 * r}, rest);
   const Muscles muscles = make_muscles(rest, r, {everywhere(rest, Vec3::UnitX()), soft});
   const Points now = shaken(test::affine(rest, test::turned({1, 2, 3}, 130)), 0.8 * r);
   const Pulled pulled(muscles, now);
@@ -136,7 +136,7 @@ void expect_gradient(const Muscles& muscles, Points now) {
 TEST(Muscles, ForcesAreMinusTheGradientOfThePotential) {
   const Points rest = test::fcc_ball(4.5, r);
   Muscle soft = everywhere(rest, Vec3::UnitY());
-  soft.shares = shares_in({SphereShape{{0, 0, 0}, 2 * r}, 3 * r}, rest);
+  soft.weights = weights_in({SphereShape{{0, 0, 0}, 2 * r}, 3 * r}, rest);
   const Muscles muscles = make_muscles(rest, r, {everywhere(rest, aslant), soft});
   expect_gradient(muscles, shaken(rest, 0.6 * r));
   // Crushed below half its length, flat, and turned inside out.
@@ -211,7 +211,7 @@ TEST(Muscles, AFreeBarShortensByTheActiveStressOverItsModulus) {
 TEST(Muscles, ForcesFollowTheParticlesWhateverTheirOrder) {
   const Points rest = test::fcc_ball(5, r), now = shaken(rest, 0.4 * r);
   Muscle half = everywhere(rest, aslant);
-  half.shares = shares_in({PlaneShape{}, r}, rest);
+  half.weights = weights_in({PlaneShape{}, r}, rest);
   const Muscles muscles = make_muscles(rest, r, {half});
   const Particles particles = particles_at(now, r, 1);
   std::vector<std::size_t> order(rest.size());
@@ -263,18 +263,18 @@ TEST(Muscles, ParticlesWithoutAGradientHaveNoFibers) {
   EXPECT_EQ(muscle_stiffness(muscles, r), 0);
 }
 
-TEST(Muscles, TheSharesOfABoneAreItsWeights) {
+TEST(Muscles, TheWeightsOfABoneAreThoseOfItsBinding) {
   Settings scene = test::box_scene();
   scene.binding.joint_zone = 1;
   const Body body = test::make_body(scene, test::fcc_box(11, 11, 49, r));
-  const auto lower = shares_bound_to(0, body.binding), upper = shares_bound_to(1, body.binding);
+  const auto lower = weights_bound_to(0, body.binding), upper = weights_bound_to(1, body.binding);
   double sum = 0;
-  for (const auto* shares : {&lower, &upper})
-    for (const MuscleShare& share : *shares) sum += share.weight;
+  for (const auto* weights : {&lower, &upper})
+    for (const MuscleWeight& entry : *weights) sum += entry.weight;
   EXPECT_GT(lower.size() + upper.size(), body.rest.size());  // a zone belongs to both
   EXPECT_NEAR(sum, static_cast<double>(body.rest.size()), 1e-9);
   Muscle muscle = everywhere(body.rest, body.skeleton.bones[1].axis());
-  muscle.shares = upper;
+  muscle.weights = upper;
   EXPECT_NO_THROW(make_muscles(body.rest, r, {muscle}));
 }
 
@@ -287,9 +287,9 @@ TEST(Muscles, BadOnesAreRefusedByName) {
   };
   refused([](Muscle& m) { m.direction = Vec3::Zero(); }, "a direction without length");
   refused([](Muscle& m) { m.strength = NAN; }, "a strength of");
-  refused([](Muscle& m) { m.shares.clear(); }, "has 0 particles");
-  refused([](Muscle& m) { m.shares[0].weight = 1.5; }, "a share of 1.5");
-  refused([](Muscle& m) { m.shares[1].particle = 0; }, "names particle 0");
+  refused([](Muscle& m) { m.weights.clear(); }, "has 0 particles");
+  refused([](Muscle& m) { m.weights[0].weight = 1.5; }, "a share of 1.5");
+  refused([](Muscle& m) { m.weights[1].particle = 0; }, "names particle 0");
   refused([](Muscle& m) { m.activation = {{0, 1}, {0, 2}}; }, "has the value 2");
   refused([](Muscle& m) { m.activation = {{1, 1}, {0, 1}}; }, "does not come later");
   refused([](Muscle& m) { m.activation = {{1}, {}}; }, "1 times and 0 values");

@@ -221,8 +221,8 @@ double block_on_incline(double angle, double stick, int steps) {
 }
 
 TEST(Obstacles, ABodyHoldsFastBelowTheAngleOfFriction) {
-  const double creep = block_on_incline(20, 0.5, 3000), held = block_on_incline(20, 0, 3000);
-  EXPECT_LT(std::abs(held), 1e-6);
+  const double creep = block_on_incline(20, 0.5, 3000), sticking = block_on_incline(20, 0, 3000);
+  EXPECT_LT(std::abs(sticking), 1e-6);
   EXPECT_LT(std::abs(creep), 0.1);
   EXPECT_GT(std::abs(block_on_incline(35, 0, 3000)), 0.1);
 }

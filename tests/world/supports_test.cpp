@@ -102,11 +102,11 @@ TEST(Supports, ReactionsBalanceLoadsAndWeightAtRest) {
     machine.world.drag.rate = 15;
     machine.world.loads = {machine.pull(machine.top(), {0.02, 0.01, 0.05})};
     Simulation simulation = machine.after(6);
-    const Vec3 held = sum_of(simulation.support_reactions()),
+    const Vec3 reaction = sum_of(simulation.support_reactions()),
                loads = sum_of(simulation.load_reactions());
-    const double most = held.norm();
+    const double most = reaction.norm();
     EXPECT_LT((loads - Vec3(0.02, 0.01, 0.05)).norm(), 1e-12);
-    EXPECT_LT((held + loads + machine.weight()).norm(),
+    EXPECT_LT((reaction + loads + machine.weight()).norm(),
               (precision == binary64 ? 1e-6 : 1e-3) * most);
   }
 }
@@ -118,10 +118,10 @@ TEST(Supports, MomentsBalanceAtRestToo) {
   machine.world.drag.rate = 15;
   machine.world.loads = {machine.pull(machine.top(), {0.02, 0.01, 0.05})};
   Simulation simulation = machine.after(6);
-  const Vec3 held = moment_of(simulation.support_reactions(), {machine.world.supports[0].pivot});
+  const Vec3 moment = moment_of(simulation.support_reactions(), {machine.world.supports[0].pivot});
   const Vec3 load = moment_of(simulation.load_reactions(), {machine.world.loads[0].pivot});
   EXPECT_GT(load.norm(), 1e-4);
-  EXPECT_LT((held + load).norm(), 1e-6 * load.norm());
+  EXPECT_LT((moment + load).norm(), 1e-6 * load.norm());
 }
 
 TEST(Supports, ARollerHasNoReactionAlongItsFreeDirections) {

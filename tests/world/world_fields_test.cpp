@@ -16,7 +16,7 @@ using namespace test;
 
 constexpr ParticleInfo grain = {0.005, 6e-6};
 
-TEST(KeyedValues, AreStraightBetweenKeysAndHeldOutside) {
+TEST(KeyedValues, AreStraightBetweenKeysAndConstantOutside) {
   const KeyedValue keys = {{1, 2, 4}, {0, 3, -1}};
   EXPECT_EQ(keys.at(0), 0);
   EXPECT_EQ(keys.at(1), 0);

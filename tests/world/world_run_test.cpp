@@ -40,8 +40,8 @@ class Box {
     body.world = std::make_shared<const World>(world);
     Particles particles = particles_at(rest, r, mass);
     const WorldLoad load = {added_stiffness(world, particles), added_damping(world, particles)};
-    const double step =
-        share_of_limit * step_limit(settings.solver.integrator, body.material, body.springs, load);
+    const double step = fraction_of_limit *
+                        step_limit(settings.solver.integrator, body.material, body.springs, load);
     for (std::size_t i = 0; i < rest.size(); ++i) particles.set_velocity(i, velocity);
     Simulation simulation(body, motion_of(settings, body.skeleton), particles,
                           stepping_of(settings.solver, step));
@@ -49,7 +49,7 @@ class Box {
     return simulation;
   }
 
-  /// Runs, and keeps the balance of energies within a share of the work or losses.
+  /// Runs, and keeps the balance of energies within a fraction of the work or losses.
   Energies balanced(double duration) const {
     Simulation simulation = run();
     const Energies start = simulation.energies();
@@ -66,7 +66,7 @@ class Box {
   Settings settings;
   World world;
   double stiffness = 0, mass = 0;
-  double share_of_limit = 0.5;
+  double fraction_of_limit = 0.5;
   Vec3 velocity = Vec3::Zero();
 };
 
@@ -168,12 +168,12 @@ TEST(WorldRun, PinsOnBonesMoveAndDoTheirWork) {
 
 TEST(WorldRun, FieldsAndMusclesDoTheWorkTheyGive) {
   Box box;
-  box.share_of_limit = 0.2;  // the balance closes to second order; a twitch is fast
+  box.fraction_of_limit = 0.2;  // the balance closes to second order; a twitch is fast
   box.world.fields = {{"wind", UniformAcceleration{{2, 0, 0}}, {}, {{0, 0.1}, {0, 1}}}};
   Muscle muscle;
   muscle.strength = 1000;
   muscle.activation = {{0, 0.05}, {0, 1}};
-  muscle.shares = shares_in({}, box.rest);
+  muscle.weights = weights_in({}, box.rest);
   box.world.muscles = make_muscles(box.rest, r, {muscle});
   box.balanced(0.2);
   const Particles now = box.run(0.2).particles();
@@ -200,8 +200,8 @@ TEST(WorldRun, ForcesOfTheWorldArePartOfTheTotal) {
   EXPECT_NEAR((forces.total(3) - forces.world[3]).norm(), 0, 1e-12);
 }
 
-/// Whether a body pressed between three walls stays at rest at this share of the limit.
-bool rests(double share) {
+/// Whether a body pressed between three walls stays at rest at this fraction of the limit.
+bool rests(double fraction) {
   Box box(false, 5);
   box.settings.solver.gravity = {-2, -2, -2};
   const double side = 2 * half_plane_spacing(r) + r, bottom = half_plane_spacing(r) / 2 - r;
@@ -217,7 +217,7 @@ bool rests(double share) {
   const WorldLoad load = {added_stiffness(box.world, particles),
                           added_damping(box.world, particles)};
   const double limit = step_limit(Integrator::symplectic_euler, body.material, body.springs, load);
-  Simulation simulation(body, {}, particles, stepping_of(box.settings.solver, share * limit));
+  Simulation simulation(body, {}, particles, stepping_of(box.settings.solver, fraction * limit));
   try {
     for (int step = 0; step < 3000; ++step) simulation.step();
   } catch (const Error&) {

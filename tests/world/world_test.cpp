@@ -51,7 +51,7 @@ World busy_world(const Points& rest) {
   muscle.strength = 2000;
   muscle.direction = {1, 1, 0};
   muscle.activation = {{0, 0.1}, {0, 1}};
-  muscle.shares = shares_in({SphereShape{{0, 0, 0}, 3 * r}, 2 * r}, rest);
+  muscle.weights = weights_in({SphereShape{{0, 0, 0}, 3 * r}, 2 * r}, rest);
   world.muscles = make_muscles(rest, r, {muscle});
   return world;
 }
@@ -183,10 +183,10 @@ TEST(World, StepsWithinTheLimitOfItsStiffnessAndDampingAreStable) {
   EXPECT_NEAR(w2, 450 / mass, 1e-9);
   EXPECT_NEAR(g, 1.8 / mass, 1e-9);
   const double limit = (std::sqrt(g * g + 4 * w2) - g) / w2;
-  World held = world;
-  held.fields = {{"press", UniformAcceleration{{0, 0, -150 * 0.5 * r / mass}}, {}, {}}};
-  EXPECT_TRUE(rests(held, mass, {0, 0, 0}, 0.99 * limit));
-  EXPECT_FALSE(rests(held, mass, {0, 0, 0}, 4 * limit));
+  World pressed = world;
+  pressed.fields = {{"press", UniformAcceleration{{0, 0, -150 * 0.5 * r / mass}}, {}, {}}};
+  EXPECT_TRUE(rests(pressed, mass, {0, 0, 0}, 0.99 * limit));
+  EXPECT_FALSE(rests(pressed, mass, {0, 0, 0}, 4 * limit));
 }
 
 TEST(World, LimitsCountTheObstaclesThatAParticleCanMeetAtOnce) {

@@ -9,7 +9,8 @@
 namespace sinew {
 namespace {
 
-constexpr double worth_telling = 0.05;  // share of the time that the simulation waits for writing
+constexpr double worth_telling =
+    0.05;  // fraction of the time that the simulation waits for writing
 constexpr auto between = std::chrono::seconds(10);  // of lines that are not rewritten
 
 std::string duration_text(double seconds) {
@@ -22,12 +23,12 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
-                          double seconds_left, double share_waited) {
+                          double seconds_left, double fraction_waited) {
   std::string text = fmt::format("frame {}/{}  time {:.4g} s", frame, frames, time);
   if (steps_per_second > 0) text += fmt::format("  {:.0f} steps/s", steps_per_second);
   if (seconds_left > 0) text += fmt::format("  {} left", duration_text(seconds_left));
-  if (share_waited > worth_telling)
-    text += fmt::format("  {:.0f} % spent waiting for the disk", 100 * share_waited);
+  if (fraction_waited > worth_telling)
+    text += fmt::format("  {:.0f} % spent waiting for the disk", 100 * fraction_waited);
   return text;
 }
 

@@ -18,7 +18,7 @@ namespace sinew {
 /// "frame 30/90  time 1 s  1234 steps/s  0:52 left  31 % spent waiting for the disk"; unknown parts
 /// (0, negative) and waits below a twentieth are left out.
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
-                          double seconds_left, double share_waited = 0);
+                          double seconds_left, double fraction_waited = 0);
 
 /// "frame 1/2  time 0.5 s  3000 iterations, residual 0.0012"
 std::string iterations_text(int frame, int frames, double time, std::int64_t iterations,

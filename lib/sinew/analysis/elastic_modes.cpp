@@ -24,7 +24,7 @@ constexpr double max_particles = 8'000;              // still larger ones are co
 constexpr std::size_t min_bonds = 3;                 // fewer do not hold a particle
 constexpr int max_rounds = 60, order = 3;            // of the polynomials to begin with
 constexpr double converged = 1e-4;                   // of eigenvalues
-constexpr double floppy = 1e-3;  // share of a smooth mode's w^2 below which one is no mode
+constexpr double floppy = 1e-3;  // fraction of a smooth mode's w^2 below which one is no mode
 
 /// Returns the indices of the particles in the largest part that hangs together.
 std::vector<std::size_t> largest_part(const Body& body) {
@@ -48,13 +48,13 @@ Body part_of(const Body& body, const std::vector<std::size_t>& places) {
   part.lattice = body.lattice;
   for (const std::size_t i : places) {
     part.rest.push_back(body.rest[i]);
-    if (!body.share.empty()) part.share.push_back(body.share[i]);
+    if (!body.volume_share.empty()) part.volume_share.push_back(body.volume_share[i]);
     if (!body.stiffness.empty()) part.stiffness.push_back(body.stiffness[i]);
     if (!body.density.empty()) part.density.push_back(body.density[i]);
     if (!body.local.volume.empty()) part.local.volume.push_back(body.local.volume[i]);
   }
   part.neighbors = neighbors_of(part);
-  part.factors = bond_factors(part.rest, *part.neighbors, part.material, part.share, part.stiffness,
+  part.factors = bond_factors(part.rest, *part.neighbors, part.material, part.volume_share, part.stiffness,
                               part.local.volume);
   return part;
 }
@@ -202,18 +202,20 @@ class ModeFinder {
   Vector squared_;
 };
 
-/// Finds the modes of a body small enough; masses in proportion to the shares, or all the same.
-ElasticModes modes_of(const Body& whole, bool by_share) {
+/// Finds the modes of a body small enough; masses in proportion to the volume shares, or all the
+/// same.
+ElasticModes modes_of(const Body& whole, bool by_volume) {
   const Body body = part_of(whole, largest_part(whole));
   const auto n = static_cast<Eigen::Index>(body.rest.size());
   if (n < 2) return {};
   Vector mass(3 * n);
-  double shares = 0;
-  for (const double share : body.share) shares += share;
+  double sum = 0;
+  for (const double volume_share : body.volume_share) sum += volume_share;
   for (Eigen::Index i = 0; i < n; ++i)
     mass.segment<3>(3 * i).setConstant(
         mass_of(body, static_cast<std::size_t>(i), body.material.mass) *
-        (by_share ? body.share[static_cast<std::size_t>(i)] * static_cast<double>(n) / shares : 1));
+        (by_volume ? body.volume_share[static_cast<std::size_t>(i)] * static_cast<double>(n) / sum
+                   : 1));
   return ModeFinder(body, mass).find();
 }
 

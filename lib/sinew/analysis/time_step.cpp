@@ -70,10 +70,10 @@ double semi_implicit_limit(const Material& material, const std::vector<BoneSprin
 double explicit_limit(const Material& material, const std::vector<BoneSprings>& springs,
                       const WorldLoad& world, double stiffest) {
   const double C = material.damping;
-  const double share = is_central(material) ? 1.5 : 1, k = material.stiffness();
+  const double factor = is_central(material) ? 1.5 : 1, k = material.stiffness();
   double w2 = 0;
   for (const Mode& mode : worst_modes(material, stiffest)) w2 = std::max(w2, mode.w2);
-  double limit = C / (share * w2 * k + share * world.stiffness);
+  double limit = C / (factor * w2 * k + factor * world.stiffness);
   for (const Mode& mode : worst_modes(material, stiffest))
     if (C > 0)
       limit = std::min(
@@ -214,7 +214,7 @@ double power_step_limit(const Body& body, const WorldLoad& world) {
   const auto scaled = [&](const Motions& to) -> Motions {
     return smallness * body.material.pair.r / (step * step / 4) / to.cwiseAbs().maxCoeff() * to;
   };
-  const auto share = [&](double dt) {
+  const auto fraction = [&](double dt) {
     return near.driven(u, dt).cwiseProduct(u).sum() / u.squaredNorm();
   };
   for (int round = 0; round < rounds; ++round) {
@@ -223,8 +223,8 @@ double power_step_limit(const Body& body, const WorldLoad& world) {
       if (!(next.cwiseAbs().maxCoeff() > 0)) return step;  // nothing holds the particles
       u = scaled(next);
     }
-    // Share of the mode found: a t^2 + b t for a step t times as long.
-    const double whole = share(step), half = share(step / 2);
+    // Fraction of the mode found: a t^2 + b t for a step t times as long.
+    const double whole = fraction(step), half = fraction(step / 2);
     const double a = 2 * whole - 4 * half, b = 4 * half - whole;
     step *= 2 / (b + std::sqrt(b * b + 4 * a));
   }

@@ -31,7 +31,7 @@ struct Body {
   std::vector<BoneSprings> springs;  ///< per bone
   Mat3 lattice = Mat3::Identity();   ///< columns: the packing's axes
   /// Volume of the body around each particle, by id, over that of one inside; empty: 1 each.
-  std::vector<double> share = {};
+  std::vector<double> volume_share = {};
   std::vector<double> stiffness = {};  ///< of the material there over `material`'s; empty: 1 each
   std::vector<double> density = {};    ///< the same of the density
   /// Place of each particle's material in the scene's list, from 1, or 0; empty: 0 each.

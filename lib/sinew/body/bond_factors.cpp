@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t particles_per_search = 1024;
 constexpr std::size_t bonds_inside = 18;
 constexpr double min_factor = 0.1, max_factor = 4;
-constexpr double max_share = 2;
-constexpr double min_difference = 1e-3;  // of a share from that inside
+constexpr double max_volume_share = 2;
+constexpr double min_difference = 1e-3;  // of a volume share from that inside
 // Regularization of the least squares: hardly any in a lattice. Elsewhere exact solutions ask for
 // bonds that push apart, and a body with factors this near to 1 is stiffer.
 constexpr double regularization = 1e-6 / 18, irregular_regularization = 3e-2 / 18;
@@ -28,13 +28,13 @@ constexpr double regularization = 1e-6 / 18, irregular_regularization = 3e-2 / 1
 constexpr double edges_over_waves = 1.02;
 constexpr double min_offset = 1e-3;  // in radii, of a neighbor's distance from a lattice's
 
-/// The independent parts of a symmetric tensor of fourth order, so that sums of products are those
-/// of the tensors.
+/// The independent components of a symmetric tensor of fourth order, so that sums of products are
+/// those of the tensors.
 using Tensor = Eigen::Matrix<double, 15, 1>;
-using Parts = Eigen::Matrix<double, 15, Eigen::Dynamic>;
+using Tensors = Eigen::Matrix<double, 15, Eigen::Dynamic>;
 
 Tensor fourth_power(const Vec3& n) {
-  Tensor parts;
+  Tensor components;
   int at = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j)
@@ -44,9 +44,9 @@ Tensor fourth_power(const Vec3& n) {
           for (const int axis : {i, j, k, l}) ++times[axis];
           double orders = 24;
           for (const int count : times) orders /= std::tgamma(count + 1.0);
-          parts[at++] = std::sqrt(orders) * n[i] * n[j] * n[k] * n[l];
+          components[at++] = std::sqrt(orders) * n[i] * n[j] * n[k] * n[l];
         }
-  return parts;
+  return components;
 }
 
 /// The sum of k l^2 n n n n inside, over k d0^2.
@@ -65,9 +65,9 @@ Tensor inside() {
 class SurfaceBonds {
  public:
   SurfaceBonds(const Points& rest, const RestNeighbors& near, const Material& material,
-               const std::vector<double>& share, const std::vector<double>& stiffness)
+               const std::vector<double>& volume_share, const std::vector<double>& stiffness)
       : rest_(rest),
-        share_(share),
+        volume_share_(volume_share),
         stiffness_(stiffness),
         r_(material.pair.r),
         second_(material.packing().second),
@@ -121,10 +121,11 @@ class SurfaceBonds {
   void find_asking() {
     asks_.resize(rest_.size());
     for_each([&](std::size_t i) {
-      const bool other_share = !share_.empty() && std::abs(share_[i] - 1) > min_difference;
-      asks_[i] = is_irregular(i)                             ? irregular
-                 : bonds_of(i) < bonds_inside || other_share ? at_edge
-                                                             : nothing;
+      const bool other_volume_share =
+          !volume_share_.empty() && std::abs(volume_share_[i] - 1) > min_difference;
+      asks_[i] = is_irregular(i)                                    ? irregular
+                 : bonds_of(i) < bonds_inside || other_volume_share ? at_edge
+                                                                    : nothing;
     });
   }
   bool is_touched(std::size_t i) const {
@@ -157,20 +158,21 @@ class SurfaceBonds {
   void ask(std::size_t i) {
     static const Tensor whole = inside();
     const auto around = near_.of(i);
-    Parts parts(15, around.size());
+    Tensors tensors(15, around.size());
     for (std::size_t b = 0; b < around.size(); ++b) {
       const Vec3 X = rest_[around[b]] - rest_[i];
       const double length = X.norm(), relative = length / nearest_distance(r_);
-      parts.col(static_cast<Eigen::Index>(b)) =
+      tensors.col(static_cast<Eigen::Index>(b)) =
           relative_stiffness(length) * relative * relative * fourth_power(X / length);
     }
-    const double share = share_.empty() ? 1 : std::min(share_[i], max_share);
+    const double volume_share =
+        volume_share_.empty() ? 1 : std::min(volume_share_[i], max_volume_share);
     const Eigen::Matrix<double, 15, 15> normal =
-        parts * parts.transpose() +
+        tensors * tensors.transpose() +
         (asks_[i] == irregular ? irregular_regularization : regularization) * whole.squaredNorm() *
             Eigen::Matrix<double, 15, 15>::Identity();
-    const Tensor lacking = share * whole - parts.rowwise().sum();
-    const Eigen::VectorXd change = parts.transpose() * normal.ldlt().solve(lacking);
+    const Tensor lacking = volume_share * whole - tensors.rowwise().sum();
+    const Eigen::VectorXd change = tensors.transpose() * normal.ldlt().solve(lacking);
     for (std::size_t b = 0; b < around.size(); ++b)
       asked_[first_[i] + b] = 1 + change[static_cast<Eigen::Index>(b)];
   }
@@ -197,7 +199,7 @@ class SurfaceBonds {
   }
 
   const Points& rest_;
-  const std::vector<double>&share_, &stiffness_;
+  const std::vector<double>&volume_share_, &stiffness_;
   double r_, second_;
   const NeighborLists& near_;
   std::vector<Reason> asks_;
@@ -230,14 +232,14 @@ BondFactors::Row BondFactors::of(std::uint32_t id) const {
 }
 
 BondFactors bond_factors(const Points& rest, const RestNeighbors& near, const Material& material,
-                         const std::vector<double>& share, const std::vector<double>& stiffness,
+                         const std::vector<double>& volume_share, const std::vector<double>& stiffness,
                          const std::vector<double>& volume) {
   BondFactors factors;
   if (material.bond.second > 0)
-    factors = SurfaceBonds(rest, near, material, share, stiffness).factors();
+    factors = SurfaceBonds(rest, near, material, volume_share, stiffness).factors();
   const Material keeping = with_max_volume_stiffness(material, stiffness, volume);
   if (keeping.volume_stiffness <= 0) return factors;
-  factors.volume_weight = volume_weights(rest, near.nearest, keeping, share);
+  factors.volume_weight = volume_weights(rest, near.nearest, keeping, volume_share);
   const double most = *std::max_element(factors.volume_weight.begin(), factors.volume_weight.end());
   PackingStiffness packing = keeping.packing();
   packing.volume *= most;

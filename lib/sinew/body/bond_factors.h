@@ -2,10 +2,10 @@
 // Stiffness of the bonds near a surface. Particles there have fewer than 18 bonds, so a body would
 // be softer than its material, the more so the thinner it is. Each of them asks for factors on its
 // bonds, as near to 1 as may be (least squares), with which they are as stiff in every direction as
-// all 18 are, times the particle's share of the body: the sum of k l^2 n n n n over its bonds is
+// all 18 are, times the particle's volume share: the sum of k l^2 n n n n over its bonds is
 // that of the isotropic packing. A bond has the mean of what its two particles ask for.
 //
-//     body.factors = bond_factors(body.rest, *neighbors_of(body), body.material, body.share);
+//     body.factors = bond_factors(body.rest, *neighbors_of(body), body.material, body.volume_share);
 //     const double factor = body.factors.of(id).at(neighbor);
 #pragma once
 
@@ -48,13 +48,13 @@ struct BondFactors {
   Row of(std::uint32_t id) const;
 };
 
-/// Finds the factors of particles at `rest` (m) with the neighbors `near`. `share`: the volume of
+/// Finds the factors of particles at `rest` (m) with the neighbors `near`. `volume_share`: the volume of
 /// the body around each particle over that of one inside; `stiffness`: that of the material there
 /// over the body's, of which a bond has the harmonic mean, as springs in series; empty: 1 each.
 /// `volume`: K_v there, Pa; empty: the material's. In parallel, the same for any number of threads.
 /// None without bonds of second neighbors, but for the weights of volumes that are kept.
 BondFactors bond_factors(const Points& rest, const RestNeighbors& near, const Material& material,
-                         const std::vector<double>& share,
+                         const std::vector<double>& volume_share,
                          const std::vector<double>& stiffness = {},
                          const std::vector<double>& volume = {});
 

@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-// Closer to the bone than this share of a radius, a particle has no direction from it.
+// Closer to the bone than this fraction of a radius, a particle has no direction from it.
 constexpr double on_axis = 1e-6;
 
 struct Spring {
@@ -60,7 +60,7 @@ Spring twist_servo(double k, const Vec3& axis, const Vec3& wanted, const Vec3& a
 Vec3 across(const Vec3& axis, const Vec3& offset) { return offset - axis.dot(offset) * axis; }
 
 Spring twist(const BoneSprings& springs, const BonePose& pose, const Carried& carried,
-             const HeldParticle& particle) {
+             const ParticleState& particle) {
   const Vec3 axis = pose.axis();
   const Vec3 actual = across(axis, particle.position - carried.foot);
   if (springs.twist_form == TwistForm::open_loop)
@@ -120,7 +120,7 @@ std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Mate
 }
 
 BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,
-                   const BonePose& pose, const HeldParticle& particle) {
+                   const BonePose& pose, const ParticleState& particle) {
   const Carried carried = carry(influence, bone, pose, particle.rest);
   const double level = bone.axis().dot(particle.rest - bone.head());
   BonePull pull;

@@ -58,7 +58,7 @@ struct BonePull {
 };
 
 /// A particle at rest and at present.
-struct HeldParticle {
+struct ParticleState {
   Vec3 rest, position, velocity;  ///< m, m, m/s
   double radius;                  ///< m
   std::size_t id = 0;             ///< in the written order
@@ -66,6 +66,6 @@ struct HeldParticle {
 
 /// The pull, including the weight, of the bone at `pose` (at rest `bone`) through `influence`.
 BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,
-                   const BonePose& pose, const HeldParticle& particle);
+                   const BonePose& pose, const ParticleState& particle);
 
 }  // namespace sinew

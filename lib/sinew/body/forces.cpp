@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t particles_per_task = 512, particles_per_sum = 16384;
 
-HeldParticle held(const Particles& particles, const Body& body, std::size_t i) {
+ParticleState state_of(const Particles& particles, const Body& body, std::size_t i) {
   return {body.rest[particles.id[i]], particles.position(i), particles.velocity(i),
           particles.radius};
 }
@@ -21,7 +21,7 @@ HeldParticle held(const Particles& particles, const Body& body, std::size_t i) {
 template <class Visit>
 void for_each_pull(const Particles& particles, const Body& body, const Pose& pose, std::size_t i,
                    Visit&& visit) {
-  const HeldParticle particle = held(particles, body, i);
+  const ParticleState particle = state_of(particles, body, i);
   for (const Influence& influence : body.binding.of(particles.id[i])) {
     const int b = influence.bone;
     visit(b, bone_pull(body.springs[b], influence, body.skeleton.bones[b], pose[b], particle));

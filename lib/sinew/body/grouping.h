@@ -51,8 +51,8 @@ inline std::size_t Grouping::inside() const {
       std::count_if(layer.begin(), layer.end(), [](Layer one) { return one >= Layer::shell; }));
 }
 
-/// What keeps the particles of a cell of the body in their groups.
-struct HeldCell {
+/// The constraint that groups are on the particles of a cell of the body.
+struct ConstrainedCell {
   double squares = 0;  ///< sum of squares of accelerations that their groups do not follow, m^2/s^4
   double count = 0;    ///< of particles
 };

@@ -67,10 +67,10 @@ void pairwise_damping(const Particles& particles, const Material& material,
   for_each_particle(particles.size(), [&](std::size_t i) {
     Vec3 sum = Vec3::Zero();
     for_each_partner(i, [&](std::uint32_t j, const Vec3& offset, double d, double) {
-      const double share = (1.0 / forces.neighbors[i] + 1.0 / forces.neighbors[j]) / 2;
+      const double weight = (1.0 / forces.neighbors[i] + 1.0 / forces.neighbors[j]) / 2;
       const Vec3 approach = particles.velocity(i) - particles.velocity(j);
       const Vec3 along = direction_from(particles, offset, d, i, j);
-      sum += share * (central ? Vec3(approach.dot(along) * along) : approach);
+      sum += weight * (central ? Vec3(approach.dot(along) * along) : approach);
     });
     forces.damping[i] = -material.damping * sum;
   });

@@ -139,14 +139,14 @@ double Solid::free_length(bool nearest, std::uint32_t entry) const {
   const Bonds& bonds = nearest ? bonds_.nearest : bonds_.second;
   double length = bonds.rest_length[entry];
   for (const Branches::One& one : (nearest ? branches_.nearest : branches_.second).all)
-    length += one.share * one.stretch[entry];
+    length += one.modulus_ratio * one.stretch[entry];
   return length;
 }
 
-/// Calls visit(BondNow) for what still holds particle i: bonds to nearest neighbors that are whole;
-/// in the paper's model neighbors at rest within the range of attraction.
+/// Calls visit(BondNow) for what is still bonded to particle i: by bonds to nearest neighbors that
+/// are whole; in the paper's model neighbors at rest within the range of attraction.
 template <class Visit>
-void Solid::for_each_held(const Particles& particles, std::size_t i, const Visit& visit) const {
+void Solid::for_each_bonded(const Particles& particles, std::size_t i, const Visit& visit) const {
   for_each_bond(bonds_.nearest, particles, i, [&](const BondNow& bond) {
     if (law_->has_bonds || bond.distance < material_.pair.b) visit(bond);
   });
@@ -207,7 +207,7 @@ void Solid::add_springs_of_second(const Particles& particles, Forces& forces) co
 void Solid::forces(const Particles& particles, Forces& forces) {
   const CellGrid cells = cells_of(particles, law_->range(material_));
   const auto for_each_partner = [&](std::size_t i, auto&& visit) {
-    for_each_held(particles, i, [&](const BondNow& bond) {
+    for_each_bonded(particles, i, [&](const BondNow& bond) {
       visit(bond.neighbor, bond.offset, bond.distance,
             law_->bond_force(material_, branches_.nearest.with(bond.spring, bond.entry),
                              bond.distance));
@@ -235,7 +235,7 @@ double Solid::energy(const Particles& particles) {
                2;
       };
     };
-    for_each_held(particles, i, add_to(branches_.nearest));
+    for_each_bonded(particles, i, add_to(branches_.nearest));
     for_each_bond(bonds_.second, particles, i, add_to(branches_.second));
     for_each_touched(particles, cells, i, [&](std::uint32_t, const Vec3&, double d) {
       sum += law_->energy(material_, d) / 2;

@@ -141,7 +141,7 @@ class Solid {
 
  private:
   template <class Visit>
-  void for_each_held(const Particles& particles, std::size_t i, const Visit& visit) const;
+  void for_each_bonded(const Particles& particles, std::size_t i, const Visit& visit) const;
   template <class Visit>
   void for_each_touched(const Particles& particles, const CellGrid& cells, std::size_t i,
                         const Visit& visit) const;

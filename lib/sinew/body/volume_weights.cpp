@@ -24,7 +24,7 @@ constexpr double surface_over_packing = 1.15;
 class Spreading {
  public:
   Spreading(const Points& rest, const NeighborLists& nearest, double radius,
-            const std::vector<double>& share)
+            const std::vector<double>& volume_share)
       : near_(nearest),
         own_(own_volume_weights(rest, near_, radius)),
         weight_(own_),
@@ -32,7 +32,7 @@ class Spreading {
         askers_(rest.size()),
         next_(rest.size()) {
     for_each_particle(rest.size(), [&](std::size_t i) {
-      const double target = share.empty() ? 1 : std::min(share[i], largest_weight);
+      const double target = volume_share.empty() ? 1 : std::min(volume_share[i], largest_weight);
       weight_[i] = std::min(own_[i], target);
       lacks_[i] = target - weight_[i];
       for (const std::uint32_t j : near_.of(i)) askers_[i] += own_[j];
@@ -69,8 +69,8 @@ class Spreading {
 double volume_weight(const Mat3& A, double radius) {
   const double least =
       Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  const double share = std::clamp(least / (16 * radius * radius), 0.0, 1.0);
-  return share < 1e-9 ? 0 : share * share;
+  const double volume_share = std::clamp(least / (16 * radius * radius), 0.0, 1.0);
+  return volume_share < 1e-9 ? 0 : volume_share * volume_share;
 }
 
 std::vector<double> own_volume_weights(const Points& rest, const NeighborLists& nearest,
@@ -96,8 +96,8 @@ double max_volume_weight(const Material& material) {
 }
 
 std::vector<double> volume_weights(const Points& rest, const NeighborLists& nearest,
-                                   const Material& material, const std::vector<double>& share) {
-  Spreading spreading(rest, nearest, material.pair.r, share);
+                                   const Material& material, const std::vector<double>& volume_share) {
+  Spreading spreading(rest, nearest, material.pair.r, volume_share);
   if (material.bond.second > 0)
     for (int pass = 0; pass < passes; ++pass) spreading.spread(max_volume_weight(material));
   return std::move(spreading.weights());

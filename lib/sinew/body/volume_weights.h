@@ -2,7 +2,7 @@
 // How stiffly each particle keeps its volume (bonded_volume, see solid.h). With A = sum X X^T over
 // the vectors to its nearest neighbors, w = min(1, lambda_min(A) / (4 d0^2))^2: a particle of a
 // surface has few neighbors, and with the weight of one inside would halve the step. What its
-// weight lacks of its share of the body, particles further inside take over, layer by layer, as far
+// weight lacks of its volume share, particles further inside take over, layer by layer, as far
 // as the step allows: all weights sum to the body's volume, but in bodies of a few layers.
 //
 // A slab of 9, 15 and 21 layers (along cube axes) that bends in plane strain has so much of the
@@ -11,7 +11,7 @@
 //   the same, where none takes over        0.894, 0.946, 0.965
 //   bonds alone, of a ratio of 0.25        0.950, 0.979, 0.988
 //
-//     const std::vector<double> weights = volume_weights(rest, near.nearest, material, share);
+//     const std::vector<double> weights = volume_weights(rest, near.nearest, material, volume_share);
 #pragma once
 
 #include <vector>
@@ -33,9 +33,9 @@ std::vector<double> own_volume_weights(const Points& rest, const NeighborLists& 
 /// as short a step as modes at surfaces do anyway.
 double max_volume_weight(const Material& material);
 
-/// Returns the weights of particles at `rest` (m) with their nearest neighbors, and `share` as in
+/// Returns the weights of particles at `rest` (m) with their nearest neighbors, and `volume_share` as in
 /// bond_factors(). Where second neighbors have no bonds, none takes over.
 std::vector<double> volume_weights(const Points& rest, const NeighborLists& nearest,
-                                   const Material& material, const std::vector<double>& share);
+                                   const Material& material, const std::vector<double>& volume_share);
 
 }  // namespace sinew

@@ -38,7 +38,7 @@ class Background {
 
  private:
   void work();
-  /// Waits, with the lock held, until fewer than `most` jobs exist or one has failed.
+  /// Waits, owning the lock, until fewer than `most` jobs exist or one has failed.
   void wait_for_fewer(std::unique_lock<std::mutex>& lock, std::size_t most);
 
   std::size_t most_;

@@ -96,15 +96,15 @@ double volume_of(const VolumeMesh& mesh, const VolumeElement& element) {
   return sum;
 }
 
-std::span<const double> volume_shares(ElementKind kind) {
+std::span<const double> nodal_volume_weights(ElementKind kind) {
   static constexpr std::array<double, 8> of_8 = {.125, .125, .125, .125, .125, .125, .125, .125};
   static constexpr std::array<double, 4> of_4 = {.25, .25, .25, .25};
   static constexpr std::array<double, 10> of_10 = {-.05, -.05, -.05, -.05, .2, .2, .2, .2, .2, .2};
   static const std::array<double, 20> of_20 = [] {
-    std::array<double, 20> shares{};
-    std::fill_n(shares.begin(), 8, -1.0 / 8);
-    std::fill_n(shares.begin() + 8, 12, 1.0 / 6);
-    return shares;
+    std::array<double, 20> weights{};
+    std::fill_n(weights.begin(), 8, -1.0 / 8);
+    std::fill_n(weights.begin() + 8, 12, 1.0 / 6);
+    return weights;
   }();
   switch (kind) {
     case ElementKind::hexahedron8:
@@ -133,7 +133,7 @@ std::vector<std::uint32_t> face_nodes(const VolumeElement& element, int face) {
   return nodes;
 }
 
-std::span<const double> face_shares(ElementKind kind) {
+std::span<const double> nodal_face_weights(ElementKind kind) {
   static constexpr double a = -1.0 / 12, b = 1.0 / 3;
   static constexpr std::array<double, 4> of_4 = {.25, .25, .25, .25};
   static constexpr std::array<double, 8> of_8 = {a, a, a, a, b, b, b, b};
@@ -260,19 +260,19 @@ ShapeFunctions of_hexahedron(const Vec3& x, bool second) {
 }
 
 ShapeFunctions of_tetrahedron(const Vec3& x, bool second) {
-  const std::array<double, 4> share = {1 - x.sum(), x.x(), x.y(), x.z()};
+  const std::array<double, 4> barycentric = {1 - x.sum(), x.x(), x.y(), x.z()};
   const std::array<Vec3, 4> slope = {-Vec3::Ones(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   ShapeFunctions out;
   for (std::size_t k = 0; k < 4; ++k) {
-    out.value[k] = second ? share[k] * (2 * share[k] - 1) : share[k];
-    out.slope[k] = second ? Vec3((4 * share[k] - 1) * slope[k]) : slope[k];
+    out.value[k] = second ? barycentric[k] * (2 * barycentric[k] - 1) : barycentric[k];
+    out.slope[k] = second ? Vec3((4 * barycentric[k] - 1) * slope[k]) : slope[k];
   }
   if (!second) return out;
   for (std::size_t k = 0; k < tetrahedron_edges.size(); ++k) {
     const auto a = static_cast<std::size_t>(tetrahedron_edges[k][0]),
                b = static_cast<std::size_t>(tetrahedron_edges[k][1]);
-    out.value[4 + k] = 4 * share[a] * share[b];
-    out.slope[4 + k] = 4 * (share[a] * slope[b] + share[b] * slope[a]);
+    out.value[4 + k] = 4 * barycentric[a] * barycentric[b];
+    out.slope[4 + k] = 4 * (barycentric[a] * slope[b] + barycentric[b] * slope[a]);
   }
   return out;
 }

@@ -56,9 +56,9 @@ Vec3 center_of(const VolumeMesh& mesh, const VolumeElement& element);
 /// Returns the volume of the flat-sided element on its corners, m^3; negative when inside out.
 double volume_of(const VolumeMesh& mesh, const VolumeElement& element);
 
-/// The share of each node in a force that is uniform over an element's volume, exact for straight
+/// The weight of each node in a force that is uniform over an element's volume, exact for straight
 /// edges and parallel sides; they sum to 1.
-std::span<const double> volume_shares(ElementKind kind);
+std::span<const double> nodal_volume_weights(ElementKind kind);
 
 // Faces.
 
@@ -70,9 +70,9 @@ struct ElementFace {
 
 /// Corners first, then the middles of edges.
 std::vector<std::uint32_t> face_nodes(const VolumeElement& element, int face);
-/// The share of each of face_nodes() in a force that is uniform over the face, exact for straight
+/// The weight of each of face_nodes() in a force that is uniform over the face, exact for straight
 /// edges and parallel sides; they sum to 1.
-std::span<const double> face_shares(ElementKind kind);
+std::span<const double> nodal_face_weights(ElementKind kind);
 /// Area times outward normal of the face on its corners, m^2.
 Vec3 area_vector(const VolumeMesh& mesh, const ElementFace& face);
 /// The mean of its corners, m.

@@ -127,7 +127,7 @@ Vec3 EngineWorld::load(std::int32_t id) const {
                                         static_cast<std::uint32_t>(id));
     if (found == load.particles.end() || *found != static_cast<std::uint32_t>(id)) continue;
     const auto k = static_cast<std::size_t>(found - load.particles.begin());
-    sum += now_.loads[n] * load.share[k] * load.force;
+    sum += now_.loads[n] * load.weight[k] * load.force;
   }
   return sum;
 }

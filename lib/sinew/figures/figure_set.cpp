@@ -197,8 +197,8 @@ Image FigureSet::movie_frame(std::size_t frame) {
 void FigureSet::movie(std::span<const FrameSource> others) {
   Movie playback(place(of_body() ? "movie.mp4" : name() + ".mp4"), movie_options());
   for (std::size_t frame = 0; frame < movie_frames(); ++frame) {
-    const std::size_t share = frame % (others.size() + 1);
-    playback.add(share == 0 ? movie_frame(frame) : others[share - 1](frame));
+    const std::size_t source = frame % (others.size() + 1);
+    playback.add(source == 0 ? movie_frame(frame) : others[source - 1](frame));
     options_.drawn();
   }
   playback.finish();

@@ -24,9 +24,9 @@ double volume_inside(const Surface& surface) {
   return static_cast<double>(count_of(inside.runs)) * volume_per_particle(lattice.radius);
 }
 
-double ambiguous_share(const Surface& surface) {
+double ambiguous_fraction(const Surface& surface) {
   if (surface.closed()) return 0;
-  return ambiguous_share(coarse_lattice(bounds(surface.triangles.points)), surface);
+  return ambiguous_fraction(coarse_lattice(bounds(surface.triangles.points)), surface);
 }
 
 namespace {
@@ -140,14 +140,14 @@ double refuse_without_inside(const BodySpace& space, const PackOptions& options)
     refuse_without_volume(space.surface.triangles);
     return 0;
   }
-  const double share = ambiguous_share(space.surface);
-  if (share > max_ambiguous)
-    throw bad_input("the surface has no inside: " + three_digits(100 * share) +
+  const double fraction = ambiguous_fraction(space.surface);
+  if (fraction > max_ambiguous)
+    throw bad_input("the surface has no inside: " + three_digits(100 * fraction) +
                         " % of the points in its box lie neither clearly inside nor outside (the "
                         "most is " +
                         three_digits(100 * max_ambiguous) + " %)",
                     "close its holes, or give a thickness to fill a layer along it");
-  return share;
+  return fraction;
 }
 
 double wanted_radius(const BodySpace& space, const PackOptions& options) {

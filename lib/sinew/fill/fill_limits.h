@@ -17,15 +17,15 @@ double radius_for_count(double volume, double count);
 /// coarse filling.
 double volume_inside(const Surface& surface);
 
-/// The share of points in a surface's box whose winding number differs by more than 0.1 from any
+/// The fraction of points in a surface's box whose winding number differs by more than 0.1 from any
 /// integer: 0 for closed surfaces, near 1 where there is no inside.
-double ambiguous_share(const Surface& surface);
+double ambiguous_fraction(const Surface& surface);
 
-/// Above this share of ambiguous points a surface has no inside: open shells that can be filled
+/// Above this fraction of ambiguous points a surface has no inside: open shells that can be filled
 /// reach 0.64, random triangles have 0.77, a Moebius strip has 0.87.
 inline constexpr double max_ambiguous = 0.7;
 
-/// Refuses surfaces without an inside, unless a layer is to be filled. Returns the share of
+/// Refuses surfaces without an inside, unless a layer is to be filled. Returns the fraction of
 /// ambiguous points.
 double refuse_without_inside(const BodySpace& space, const PackOptions& options);
 

@@ -53,7 +53,7 @@ struct FillReport {
   int deepest = 0;  ///< winding number; above 1 where parts of the mesh overlap
   bool closed = true;
   bool layer = false;    ///< along the surface, of a given thickness, instead of its inside
-  double ambiguous = 0;  ///< share of points whose winding number is far from an integer
+  double ambiguous = 0;  ///< fraction of points whose winding number is far from an integer
   Border border;
   int components = 0;
   CleaningCounts cleaning;

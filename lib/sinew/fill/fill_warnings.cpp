@@ -21,7 +21,7 @@ std::string counted(std::size_t count, const std::string& what, const std::strin
   return std::to_string(count) + ' ' + (count == 1 ? what : many);
 }
 
-std::string percent(double share) { return three_digits(100 * share) + " %"; }
+std::string percent(double fraction) { return three_digits(100 * fraction) + " %"; }
 
 void warn_of_holes(const FillReport& report, Warnings& warnings) {
   if (report.closed || report.layer) return;

@@ -53,15 +53,15 @@ BodySpace::BodySpace(const Surface& given, const PackOptions& options)
 FilledSites fill_sites(const BodySpace& space, const PackOptions& options, double radius) {
   FilledSites best = fill_at(space, options, radius);
   if (!options.count || best.runs.empty()) return best;
-  const auto share = [&](const FilledSites& filled) {  // of the wanted count
+  const auto fraction = [&](const FilledSites& filled) {  // of the wanted count
     return static_cast<double>(count_of(filled.runs)) / *options.count;
   };
-  const auto miss = [&](const FilledSites& filled) { return std::abs(std::log(share(filled))); };
-  double next = best.lattice.radius * std::cbrt(share(best));
+  const auto miss = [&](const FilledSites& filled) { return std::abs(std::log(fraction(filled))); };
+  double next = best.lattice.radius * std::cbrt(fraction(best));
   for (int round = 0; round < max_rounds && miss(best) > well_met; ++round) {
     FilledSites found = fill_at(space, options, std::max(next, radius / max_shrink));
     if (found.runs.empty()) break;
-    next = found.lattice.radius * std::cbrt(share(found));
+    next = found.lattice.radius * std::cbrt(fraction(found));
     if (miss(found) < miss(best)) best = std::move(found);
   }
   return best;

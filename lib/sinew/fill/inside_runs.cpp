@@ -54,7 +54,7 @@ InsideRuns inside_runs(const Lattice& lattice, const Surface& surface) {
   return inside;
 }
 
-double ambiguous_share(const Lattice& lattice, const Surface& surface) {
+double ambiguous_fraction(const Lattice& lattice, const Surface& surface) {
   if (surface.closed()) return 0;
   const RowCrossings crossings = row_crossings(lattice, surface.triangles);
   const OpenSweep sweep(lattice, surface, crossings);

@@ -27,8 +27,8 @@ struct InsideRuns {
 /// The same for any number of threads.
 InsideRuns inside_runs(const Lattice& lattice, const Surface& surface);
 
-/// Returns the share of about 4,000 sites all over the lattice whose winding number differs by more
-/// than 0.1 from any integer: 0 for closed surfaces, near 1 where nothing is inside.
-double ambiguous_share(const Lattice& lattice, const Surface& surface);
+/// Returns the fraction of about 4,000 sites all over the lattice whose winding number differs by
+/// more than 0.1 from any integer: 0 for closed surfaces, near 1 where nothing is inside.
+double ambiguous_fraction(const Lattice& lattice, const Surface& surface);
 
 }  // namespace sinew

@@ -11,8 +11,8 @@
 #include <sinew/fill/detail/irregular.h>
 #include <sinew/fill/detail/isotropy.h>
 #include <sinew/fill/detail/owners.h>
-#include <sinew/fill/detail/shares.h>
 #include <sinew/fill/detail/verify.h>
+#include <sinew/fill/detail/volume_shares.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/fill_warnings.h>
 #include <sinew/fill/filled_sites.h>
@@ -140,9 +140,9 @@ struct Task {
   const BodySpace& space;
   const FilledSites& filled;
 
-  std::vector<double> shares(const Owners& owners, const FillReport& report) const {
-    return volume_shares(surface, options, space, filled.lattice, owners,
-                         report.volume_of_mesh ? report.volume : 0);
+  std::vector<double> volume_shares(const Owners& owners, const FillReport& report) const {
+    return sinew::volume_shares(surface, options, space, filled.lattice, owners,
+                                report.volume_of_mesh ? report.volume : 0);
   }
 };
 
@@ -156,8 +156,8 @@ void place_on_sites(const Task& task, Filling& filling) {
                   [](std::int32_t count) { return count > 0; }))
     report_lattice(task.filled.lattice, report);
   report_mass(filling.particles, task.options, report);
-  if (task.options.shares && task.options.packing == Packing::fcc)
-    filling.share = task.shares(SiteOwners(task.filled, touching), report);
+  if (task.options.volume_shares && task.options.packing == Packing::fcc)
+    filling.volume_share = task.volume_shares(SiteOwners(task.filled, touching), report);
   filling.neighbors = std::move(touching.neighbors);
 }
 
@@ -176,11 +176,12 @@ void place_irregularly(const Task& task, Filling& filling) {
   report.mean_distance = packed.mean / nearest_distance(radius);
   report.modulus_range = packed.springs.modulus_range();
   report_mass(filling.particles, task.options, report);
-  if (task.options.shares) {
+  if (task.options.volume_shares) {
     const Lattice& lattice = task.filled.lattice;
     Points places = packed.places;
     for (Vec3& place : places) place = (place - lattice.origin).cwiseQuotient(lattice.unit);
-    filling.share = task.shares(PointOwners(std::move(places), packed.touching), report);
+    filling.volume_share =
+        task.volume_shares(PointOwners(std::move(places), packed.touching), report);
   }
   filling.component =
       task.filled.inside.bodies > 0 ? std::move(packed.body) : std::move(packed.group);

@@ -29,7 +29,7 @@ struct PackOptions {
   Keep keep = Keep::center;
   double clearance = 0;             ///< minimal distance from the surface, m
   std::optional<double> thickness;  ///< fill a layer along the surface instead of its inside, m
-  bool shares = false;              ///< find Filling::share; not of HCP
+  bool volume_shares = false;       ///< find Filling::volume_share; not of HCP
   bool verify = false;              ///< check every site against CGAL
 };
 
@@ -38,7 +38,7 @@ struct Filling {
   std::vector<std::int32_t> component;  ///< the body that each particle is in, from 0
   std::vector<std::int32_t> neighbors;  ///< number of touching particles; 12 inside a lattice
   /// Volume of the body around each particle over that of one inside; empty: not asked for.
-  std::vector<double> share;
+  std::vector<double> volume_share;
   /// Stiffness of each particle's material over the body's; empty: the same throughout.
   std::vector<double> stiffness;
   FillReport report;
@@ -46,8 +46,8 @@ struct Filling {
 
 /// The same particles for any number of threads. Throws Error (bad input) where an open surface is
 /// to be verified, where there would be too many particles for memory or 32-bit ids or less than
-/// one, where the surface has no inside (naming the share of ambiguous points), and where no site
-/// lies inside; all name a radius that fits, or the option that helps.
+/// one, where the surface has no inside (naming the fraction of ambiguous points), and where no
+/// site lies inside; all name a radius that fits, or the option that helps.
 Filling pack(const Surface& surface, const PackOptions& options);
 
 }  // namespace sinew

@@ -13,15 +13,15 @@ namespace sinew {
 
 /// Stays where it is: its members refer to each other.
 template <class Real>
-struct Groups<Real>::Parts {
-  Parts(std::shared_ptr<const Body> of, double mass, const kernel::Functions<Real>& kernel)
+struct Groups<Real>::Impl {
+  Impl(std::shared_ptr<const Body> of, double mass, const kernel::Functions<Real>& kernel)
       : body(std::move(of)),
         shapes(group_shapes(*body)),
         layout(*body, shapes),
         motions(*body, mass, kernel, shapes, layout),
         limits(*body, kernel, shapes, layout, motions) {}
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
   std::shared_ptr<const Body> body;
   std::vector<GroupShape> shapes;
@@ -43,74 +43,74 @@ template <class Real>
 Groups<Real>::Groups(std::shared_ptr<const Body> body, double mass,
                      const kernel::Functions<Real>& kernel) {
   if (body->grouping && body->grouping->size() > 0)
-    parts_ = std::make_unique<Parts>(std::move(body), mass, kernel);
+    impl_ = std::make_unique<Impl>(std::move(body), mass, kernel);
 }
 
 template <class Real>
 void Groups<Real>::set_order(std::span<const std::int32_t> id, const BondLists<Real>& bonds,
                              bool two_deep) {
   if (!any()) return;
-  parts_->layout.set_order(id, bonds, two_deep);
-  parts_->motions.set_order(bonds);
-  parts_->limits.set_order();
+  impl_->layout.set_order(id, bonds, two_deep);
+  impl_->motions.set_order(bonds);
+  impl_->limits.set_order();
 }
 
 template <class Real>
 void Groups<Real>::begin(const BlockState<Real>& state, const Units& units) {
   if (!any()) return;
-  parts_->motions.begin(state, units);
-  parts_->limits.look_again();
+  impl_->motions.begin(state, units);
+  impl_->limits.look_again();
 }
 
 template <class Real>
 void Groups<Real>::watch(const kernel::Lists* lists, std::span<const std::uint32_t> pieces,
                          const BondLists<Real>& bonds,
                          const std::function<bool(std::size_t)>& meets) {
-  if (any()) parts_->layout.watch(lists, pieces, bonds, meets);
+  if (any()) impl_->layout.watch(lists, pieces, bonds, meets);
 }
 
 template <class Real>
 void Groups<Real>::place(BlockState<Real>& state, const Units& units) {
-  if (any()) parts_->motions.place(state, units);
+  if (any()) impl_->motions.place(state, units);
 }
 
 template <class Real>
 void Groups<Real>::show_all(BlockState<Real>& state, const Units& units) {
   if (!any()) return;
-  std::vector<std::uint32_t> all(parts_->layout.pieces());
+  std::vector<std::uint32_t> all(impl_->layout.pieces());
   for (std::uint32_t piece = 0; piece < all.size(); ++piece) all[piece] = piece;
-  parts_->motions.show(state, units, all);
+  impl_->motions.show(state, units, all);
 }
 
 template <class Real>
 void Groups<Real>::activate(BlockState<Real>& state, const Units& units) {
-  if (any()) parts_->layout.activate(state, units);
+  if (any()) impl_->layout.activate(state, units);
 }
 
 template <class Real>
 GroupedParticles Groups<Real>::seen(BlockState<Real>& state, const Units& units) {
   if (!any()) return {};
-  const auto show = [parts = parts_.get(), &state, &units](std::span<const std::uint32_t> pieces) {
-    parts->motions.show(state, units, pieces);
+  const auto show = [impl = impl_.get(), &state, &units](std::span<const std::uint32_t> pieces) {
+    impl->motions.show(state, units, pieces);
   };
-  const auto now = [parts = parts_.get(), &units](std::size_t piece) {
-    return parts->limits.piece_now(piece, units);
+  const auto now = [impl = impl_.get(), &units](std::size_t piece) {
+    return impl->limits.piece_now(piece, units);
   };
-  return {show, parts_->layout.group_of_pieces(), now, parts_->limits.strains(),
-          parts_->layout.working_pieces()};
+  return {show, impl_->layout.group_of_pieces(), now, impl_->limits.strains(),
+          impl_->layout.working_pieces()};
 }
 
 template <class Real>
 bool Groups<Real>::is_idle(std::size_t k) const {
-  return any() && parts_->layout.is_idle(k / BlockState<Real>::block);
+  return any() && impl_->layout.is_idle(k / BlockState<Real>::block);
 }
 
 template <class Real>
 kernel::Grouped<Real> Groups<Real>::arrays() {
   kernel::Grouped<Real> grouped{};
   if (!any()) return grouped;
-  parts_->layout.put_into(grouped);
-  parts_->motions.put_into(grouped);
+  impl_->layout.put_into(grouped);
+  impl_->motions.put_into(grouped);
   return grouped;
 }
 
@@ -120,38 +120,38 @@ void Groups<Real>::step(const BondLists<Real>& bonds, const kernel::Step<Real>& 
                         const std::function<bool(std::size_t)>& meets,
                         std::span<kernel::Totals> totals) {
   if (!any()) return;
-  parts_->motions.sum(bonds, step, units, by);
-  parts_->limits.bound(units, by, meets, step.parts, totals);
-  parts_->limits.check_stretch();
+  impl_->motions.sum(bonds, step, units, by);
+  impl_->limits.bound(units, by, meets, step.subpieces, totals);
+  impl_->limits.check_stretch();
 }
 
 template <class Real>
 GroupSums Groups<Real>::sums() const {
-  return any() ? parts_->motions.sums() : GroupSums();
+  return any() ? impl_->motions.sums() : GroupSums();
 }
 
 template <class Real>
 void Groups<Real>::advance() {
-  if (any()) parts_->motions.advance();
+  if (any()) impl_->motions.advance();
 }
 
 template <class Real>
-void Groups<Real>::add_held(std::span<const std::int32_t> cell, const Units& units,
-                            std::span<HeldCell> held) const {
-  if (any()) parts_->motions.add_held(cell, units, held);
+void Groups<Real>::add_constrained(std::span<const std::int32_t> cell, const Units& units,
+                                   std::span<ConstrainedCell> constrained) const {
+  if (any()) impl_->motions.add_constrained(cell, units, constrained);
 }
 
 template <class Real>
 void Groups<Real>::constrain(Forces& forces, const std::vector<std::uint32_t>& caller,
                              const Vec3& gravity) const {
   forces.group.clear();
-  if (any()) parts_->motions.constrain(forces, caller, gravity);
+  if (any()) impl_->motions.constrain(forces, caller, gravity);
 }
 
 template <class Real>
 void Groups<Real>::save(SimulationState& state) const {
   state.groups.clear();
-  if (any()) parts_->motions.save(state);
+  if (any()) impl_->motions.save(state);
 }
 
 template <class Real>
@@ -160,8 +160,8 @@ void Groups<Real>::restore(const SimulationState& state) {
     if (!state.groups.empty()) throw not_a_state("it has other groups");
     return;
   }
-  parts_->motions.restore(state);
-  parts_->limits.look_again();
+  impl_->motions.restore(state);
+  impl_->limits.look_again();
 }
 
 template class Groups<double>;

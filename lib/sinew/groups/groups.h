@@ -63,7 +63,7 @@ class Groups {
   Groups& operator=(Groups&&) noexcept;
   ~Groups();
 
-  bool any() const { return parts_ != nullptr; }
+  bool any() const { return impl_ != nullptr; }
   /// Takes the particles `id` in the kernel's order, with these bonds among them. `two_deep`:
   /// forces depend on the neighbors of neighbors.
   void set_order(std::span<const std::int32_t> id, const BondLists<Real>& bonds, bool two_deep);
@@ -96,8 +96,8 @@ class Groups {
   void advance();
   /// Adds, to the cell of each particle on which forces were gathered in the last step, what of its
   /// acceleration the group does not follow. `cell`: by id.
-  void add_held(std::span<const std::int32_t> cell, const Units& units,
-                std::span<HeldCell> held) const;
+  void add_constrained(std::span<const std::int32_t> cell, const Units& units,
+                       std::span<ConstrainedCell> constrained) const;
   /// Fills what keeps the groups together, from all other forces and gravity (m/s^2). `caller`: of
   /// each place, that in `forces`.
   void constrain(Forces& forces, const std::vector<std::uint32_t>& caller,
@@ -107,9 +107,9 @@ class Groups {
   void restore(const SimulationState& state);
 
  private:
-  struct Parts;
+  struct Impl;
 
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sinew

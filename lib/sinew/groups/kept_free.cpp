@@ -40,10 +40,11 @@ std::vector<std::uint8_t> kept_free(const Body& body, const AskedFree& asked) {
   if (asked.surface_distance <= 0 && !asked.region && asked.bones.empty()) return {};
   std::vector<std::uint8_t> free(body.rest.size(), 0);
   for (std::size_t i = 0; i < free.size(); ++i) {
-    const auto held = body.binding.of(i);
-    const bool by_bone = std::any_of(held.begin(), held.end(), [&](const Influence& one) {
-      return std::find(asked.bones.begin(), asked.bones.end(), one.bone) != asked.bones.end();
-    });
+    const auto influences = body.binding.of(i);
+    const bool by_bone =
+        std::any_of(influences.begin(), influences.end(), [&](const Influence& one) {
+          return std::find(asked.bones.begin(), asked.bones.end(), one.bone) != asked.bones.end();
+        });
     if (by_bone || (asked.region && asked.region->contains(body.rest[i]))) free[i] = 1;
   }
   if (asked.surface_distance > 0) free_near_surface(body, asked.surface_distance, free);

@@ -44,10 +44,11 @@ Grouping static_groups(const Body& body, const std::vector<bool>& moves, const G
   std::vector<std::int32_t> group(body.rest.size(), -1);
   // Numbers from `first` on, of particles that are in no group yet.
   const auto group_beyond = [&](double distance, std::int32_t first) {
-    const BoneParts parts(body, moves, distance, sizes.kept_free);
+    const BoneAssemblies assemblies(body, moves, distance, sizes.kept_free);
     parallel_for(group.size(), particles_per_grouping, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        if (const int part = parts.of(i); part >= 0 && group[i] < 0) group[i] = first + part;
+        if (const int assembly = assemblies.of(i); assembly >= 0 && group[i] < 0)
+          group[i] = first + assembly;
     });
   };
   const SharedNeighbors shared = neighbors_of(body);

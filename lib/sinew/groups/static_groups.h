@@ -10,7 +10,7 @@
 
 #include <sinew/body/grouping.h>
 #include <sinew/core/cell_grid.h>
-#include <sinew/groups/bone_parts.h>
+#include <sinew/groups/bone_assemblies.h>
 #include <sinew/groups/make_grouping.h>
 
 namespace sinew {

@@ -26,7 +26,7 @@ std::vector<bool> moving_joints(const Skeleton&, const Motion&, double) { refuse
 std::vector<std::uint8_t> kept_free(const Body&, const AskedFree&) { refuse(); }
 
 template <class Real>
-struct Groups<Real>::Parts {};
+struct Groups<Real>::Impl {};
 
 template <class Real>
 Groups<Real>::Groups() = default;
@@ -76,8 +76,8 @@ GroupSums Groups<Real>::sums() const {
 template <class Real>
 void Groups<Real>::advance() {}
 template <class Real>
-void Groups<Real>::add_held(std::span<const std::int32_t>, const Units&,
-                            std::span<HeldCell>) const {}
+void Groups<Real>::add_constrained(std::span<const std::int32_t>, const Units&,
+                                   std::span<ConstrainedCell>) const {}
 template <class Real>
 void Groups<Real>::constrain(Forces& forces, const std::vector<std::uint32_t>&, const Vec3&) const {
   forces.group.clear();

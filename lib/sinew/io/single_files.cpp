@@ -107,8 +107,8 @@ BodyFile body_of(const Dataset& data) {
       shared(data.point_columns, find(data.point_columns, "density") ? "common_mass" : "mass"));
   body.neighbors = integers(data.point_columns, "neighbors");
   body.component = integers(data.point_columns, "component");
-  if (find(data.point_columns, "share")) body.share = numbers(data.point_columns, "share");
-  if (body.share) check_values(*body.share, "share");
+  if (find(data.point_columns, "share")) body.volume_share = numbers(data.point_columns, "share");
+  if (body.volume_share) check_values(*body.volume_share, "share");
   if (find(data.point_columns, "stiffness"))
     body.stiffness = numbers(data.point_columns, "stiffness");
   if (body.stiffness) check_values(*body.stiffness, "stiffness");
@@ -141,7 +141,8 @@ Dataset body_dataset(BodyFile body) {
   data.point_columns.push_back(column("mass", std::move(masses)));
   data.point_columns.push_back(column("neighbors", std::move(body.neighbors)));
   data.point_columns.push_back(column("component", std::move(body.component)));
-  if (body.share) data.point_columns.push_back(column("share", std::move(*body.share)));
+  if (body.volume_share)
+    data.point_columns.push_back(column("share", std::move(*body.volume_share)));
   if (body.stiffness) data.point_columns.push_back(column("stiffness", std::move(*body.stiffness)));
   if (body.density) {
     data.point_columns.push_back(column("density", std::move(*body.density)));

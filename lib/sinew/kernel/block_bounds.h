@@ -4,7 +4,7 @@
 
 #include <bit>
 
-#include <sinew/kernel/parts.h>
+#include <sinew/kernel/vectors.h>
 
 namespace sinew::kernel {
 

@@ -26,10 +26,10 @@ struct BondKind {
 /// A spring and a dashpot in series beside each bond: see material/maxwell.h.
 template <class Real>
 struct Branch {
-  Real* stretch;  ///< entries x block: of its dashpot
-  Real share;     ///< of the bond's stiffness
-  Real flows;     ///< share of its spring's stretch that passes to the dashpot now; often 0
-  Real weight;    ///< of its stretch in the length at which the bond pulls nothing
+  Real* stretch;       ///< entries x block: of its dashpot
+  Real modulus_ratio;  ///< of the bond's stiffness
+  Real flows;          ///< fraction of its spring's stretch that passes to the dashpot now; often 0
+  Real weight;         ///< of its stretch in the length at which the bond pulls nothing
 };
 inline constexpr int max_branches = 4;
 
@@ -59,7 +59,7 @@ struct Bonds {
   /// Values by particle, where they differ: `yield`; 1 + the strain at which bonds break. Or null.
   const Real* yield_of;
   const Real* breaking_of;
-  Real crept;     ///< share that a step takes of it
+  Real crept;     ///< fraction that a step takes of it
   Real breaking;  ///< strain at which it breaks
   Branch<Real> branch[max_branches];
   int branches;

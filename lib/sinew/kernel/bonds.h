@@ -117,8 +117,8 @@ SINEW_INLINE typename L::V spring_energy(const Bonds<typename L::Real>& bonds, c
   typename L::V squares = longer * longer;
   for (int b = 0; b < bonds.branches; ++b) {
     const typename L::V stretch = L::load(bonds.branch[b].stretch + bond.place);
-    squares =
-        L::fused(L::all(bonds.branch[b].share) * stretch, stretch - (longer + longer), squares);
+    squares = L::fused(L::all(bonds.branch[b].modulus_ratio) * stretch, stretch - (longer + longer),
+                       squares);
   }
   return bond.stiffness * squares * L::all(static_cast<typename L::Real>(0.5));
 }

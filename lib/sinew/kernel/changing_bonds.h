@@ -167,8 +167,8 @@ template <class L, Shell shell>
       Real* const stretch = branch.stretch + bond.place;
       const V before = L::load(stretch), elastic = L::keep(bond.mask, longer - before);
       L::store(stretch, L::fused(L::all(branch.flows), elastic, before));
-      const Real share = branch.share * branch.flows * (2 - branch.flows);
-      freed = L::fused(L::all(share), elastic * elastic, freed);
+      const Real weight = branch.modulus_ratio * branch.flows * (2 - branch.flows);
+      freed = L::fused(L::all(weight), elastic * elastic, freed);
     }
     add_to<L>(lost, L::keep(bond.mask, bond.stiffness * freed) * L::all(Real(0.25) / step.drift));
   };

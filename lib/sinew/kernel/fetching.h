@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include <sinew/kernel/parts.h>
+#include <sinew/kernel/vectors.h>
 
 namespace sinew::kernel {
 
@@ -58,8 +58,8 @@ SINEW_INLINE void fetch_for_step(const Step<Real>& step, std::size_t block) {
     __builtin_prefetch(step.after.x[axis] + ahead.own, 1);
     __builtin_prefetch(step.after.v[axis] + ahead.own, 1);
   }
-  const auto slot = static_cast<std::ptrdiff_t>(step.holds.first[ahead.block]);
-  fetch_rows(step.holds.held, slot * held_fields, held_fields);
+  const auto slot = static_cast<std::ptrdiff_t>(step.bindings.first[ahead.block]);
+  fetch_rows(step.bindings.attachments, slot * attachment_fields, attachment_fields);
   fetch_bonds(step.bonds, ahead.block);
   if (step.volumes.stiffness != nullptr)
     for (int k = 0; k < 9; ++k) __builtin_prefetch(step.volumes.thrust[k] + ahead.farthest);
@@ -75,8 +75,8 @@ SINEW_INLINE void fetch_for_pull(const Step<Real>& step, const PulledBlocks<Real
     __builtin_prefetch(step.before.v[axis] + own);
     __builtin_prefetch(pulled.at[axis] + own);
   }
-  const auto slot = static_cast<std::ptrdiff_t>(step.holds.first[block]);
-  fetch_rows(step.holds.held, slot * held_fields, held_fields);
+  const auto slot = static_cast<std::ptrdiff_t>(step.bindings.first[block]);
+  fetch_rows(step.bindings.attachments, slot * attachment_fields, attachment_fields);
 }
 
 template <class Real>

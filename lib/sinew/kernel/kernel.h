@@ -67,7 +67,7 @@ enum PairLaw : int { between_all, among_neighbors, springs, changing_springs, pa
 constexpr bool is_bonded(PairLaw law) { return law != between_all && law != among_neighbors; }
 
 /// Eq. 2 towards the mean velocity of the neighbors; or pair by pair, with the mean of both
-/// particles' shares.
+/// particles' inverse counts of neighbors.
 enum Damping { to_the_mean, pairwise, dampings };
 
 /// Eq. 1 and eq. 2. A pair force is k (...) times the difference of coordinates, over the distance.
@@ -103,24 +103,26 @@ struct BoneNow {
   Real stretch_rate;  ///< per time
 };
 
-/// A bone that holds particles of a block. Its lanes' fields are in `held`, field after field.
+/// A bone to which particles of a block are bound. Its lanes' fields are in `attachments`, field
+/// after field.
 struct Slot {
   std::int32_t bone;
-  std::int32_t shares;  ///< place of its weights, or -1: all lanes are held by this bone alone
+  std::int32_t weights;  ///< place of its weights, or -1: all lanes are bound to this bone alone
 };
 
-/// Fields of `held`, in the bone's frame at rest: foot and position along the bone, position across
-/// it (0 for a particle on the axis), distance from the foot.
-enum HeldField { foot, along, across_1, across_2, distance, held_fields };
-/// Fields of `shares`: weight of the bone; 1 where no bone weighs more, else 0.
-enum ShareField { weight, lead, share_fields };
+/// Fields of `attachments`, in the bone's frame at rest: foot and position along the bone, position
+/// across it (0 for a particle on the axis), distance from the foot.
+enum AttachmentField { foot, along, across_1, across_2, distance, attachment_fields };
+/// Fields of `weights`: weight of the bone; 1 where no bone weighs more, else 0.
+enum WeightField { weight, lead, weight_fields };
 
+/// The bones to which the particles of each block are bound.
 template <class Real>
-struct Holds {
+struct Bindings {
   const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
   const Slot* slots;
-  const Real* held;    ///< slots x held_fields x block
-  const Real* shares;  ///< x share_fields x block
+  const Real* attachments;  ///< slots x attachment_fields x block
+  const Real* weights;      ///< x weight_fields x block
   const BoneNow<Real>* bones;
 };
 
@@ -131,9 +133,10 @@ struct RigidMotion {
   Real velocity[3], spin[3];
 };
 
-/// Parts of pieces move on their own: particles that follow each other. A piece begins with one.
+/// Subpieces move on their own: particles of a piece that follow each other. A piece begins with
+/// one.
 template <class Real>
-struct Parts {
+struct Subpieces {
   const std::uint32_t* first;     ///< particle of each; one longer, ends with the last particle
   const std::uint32_t* of_block;  ///< that of its first particle
   std::uint32_t count;
@@ -222,11 +225,11 @@ struct Step {
   const std::int32_t* id;
   const Real* live;    ///< lanes of the last block: 1 for a particle, 0 for padding
   const Lists* lists;  ///< by piece
-  Parts<Real> parts;
-  Holds<Real> holds;
+  Subpieces<Real> subpieces;
+  Bindings<Real> bindings;
   Law<Real> law;
   std::uint8_t* careful;  ///< by vector: its pairs needed care in the last step; double precision
-  Real* share;            ///< 1 / neighbors, or 0; of pairwise damping
+  Real* inverse_count;    ///< 1 / neighbors, or 0; of pairwise damping
   bool central;           ///< that acts along the pair alone
   Bonds<Real> bonds;      ///< of laws that know neighbors at rest, and of fibers
   Real* inverse[6];       ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y

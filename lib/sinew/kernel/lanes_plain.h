@@ -53,8 +53,8 @@ struct Floats : One<float> {
   static V difference(C a, C b) { return static_cast<float>(static_cast<Coord>(a - b)); }
   static C moved(C c, V by) {
     // What 32 bits cannot hold becomes the least integer, as in the vectors.
-    const bool held = std::fabs(by) < 2147483648.0F;
-    return c + (held ? static_cast<C>(static_cast<Coord>(std::nearbyint(by))) : C{1} << 31);
+    const bool fits = std::fabs(by) < 2147483648.0F;
+    return c + (fits ? static_cast<C>(static_cast<Coord>(std::nearbyint(by))) : C{1} << 31);
   }
 };
 

@@ -2,14 +2,15 @@
 // Forces of the neighbors of a vector of particles: eq. 1, and the sums that eq. 2 needs.
 #pragma once
 
-#include <sinew/kernel/parts.h>
+#include <sinew/kernel/vectors.h>
 
 namespace sinew::kernel {
 
 template <class L>
 struct PairSums {
-  Triple<L> force = none<L>();       ///< eq. 1
-  Triple<L> velocities = none<L>();  ///< of the neighbors; pairwise: relative, times both shares
+  Triple<L> force = none<L>();  ///< eq. 1
+  Triple<L> velocities =
+      none<L>();  ///< of the neighbors; pairwise: relative, times both inverse counts
   typename L::V count = L::all(0);
   typename L::V energy = L::all(0);  ///< half of each pair's; only where requested
 };
@@ -218,12 +219,12 @@ struct Adder {
 
   SINEW_INLINE void add_pairwise(const Step<typename L::Real>& step, std::ptrdiff_t i,
                                  std::ptrdiff_t j, typename L::M near, const Triple<L>& apart) {
-    const V shares = L::load(step.share + i) + L::load(step.share + j);
+    const V inverse_counts = L::load(step.inverse_count + i) + L::load(step.inverse_count + j);
     Triple<L> relative = load<L>(step.before.v, j) - load<L>(step.before.v, i);
     if (step.central) relative = (dot<L>(relative, apart) / squared_distance<L>(apart)) * apart;
-    su = L::add_where(near, su, shares * relative.x);
-    sv = L::add_where(near, sv, shares * relative.y);
-    sw = L::add_where(near, sw, shares * relative.z);
+    su = L::add_where(near, su, inverse_counts * relative.x);
+    sv = L::add_where(near, sv, inverse_counts * relative.y);
+    sw = L::add_where(near, sw, inverse_counts * relative.z);
   }
 
   SINEW_INLINE PairSums<L> sums() const { return {{fx, fy, fz}, {su, sv, sw}, count, stored}; }
@@ -321,8 +322,8 @@ SINEW_INLINE Triple<L> damping_of(const PairSums<L>& sums, typename L::V rate,
   if constexpr (pass == forces_pairwise)
     return (rate * L::all(static_cast<typename L::Real>(0.5))) * sums.velocities;
   const auto some = L::less(L::all(0), rate * sums.count);
-  const typename L::V share = L::all(1) / L::larger(sums.count, L::all(1));
-  const Triple<L> drag = rate * (share * sums.velocities - velocity);
+  const typename L::V inverse_count = L::all(1) / L::larger(sums.count, L::all(1));
+  const Triple<L> drag = rate * (inverse_count * sums.velocities - velocity);
   return {L::keep(some, drag.x), L::keep(some, drag.y), L::keep(some, drag.z)};
 }
 

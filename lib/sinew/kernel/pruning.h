@@ -2,7 +2,7 @@
 // Selects the differences of a block that belong in its list: those with a pair within range.
 #pragma once
 
-#include <sinew/kernel/parts.h>
+#include <sinew/kernel/vectors.h>
 
 namespace sinew::kernel {
 

@@ -23,7 +23,7 @@ struct Sums {
   Real driven_power[block] = {}, fastest[block] = {}, speed2[block] = {};
   Real aa[block] = {}, av[block] = {}, vv[block] = {}, unbalanced[block] = {}, pulled[block] = {};
   bool sound = true, broke = false;
-  std::uint32_t part = 0;  ///< of `fastest`
+  std::uint32_t subpiece = 0;  ///< of `fastest`
 };
 
 template <class L>
@@ -195,7 +195,7 @@ SINEW_INLINE void account_of_relaxing(const Step<typename L::Real>& step, std::s
   add_to<L>(sums.pulled + lane, live_lanes<L>(step.blocks, step.live, block, lane) * pulled);
 }
 
-/// The squared speed relative to a part's motion.
+/// The squared speed relative to a subpiece's motion.
 template <class L>
 SINEW_INLINE typename L::V relative_speed2(const RigidMotion<typename L::Real>& motion,
                                            const Place<L>& here, const Triple<L>& drifting) {
@@ -207,13 +207,13 @@ SINEW_INLINE typename L::V relative_speed2(const RigidMotion<typename L::Real>& 
   return dot<L>(relative, relative);
 }
 
-/// The largest speed relative to the motion of the piece's first part.
+/// The largest speed relative to the motion of the piece's first subpiece.
 template <class L>
 SINEW_INLINE void track_fastest(const Step<typename L::Real>& step, std::size_t block, int lane,
                                 const Place<L>& here, const Triple<L>& drifting, Sums<L>& sums) {
   const typename L::V live = live_lanes<L>(step.blocks, step.live, block, lane);
   const typename L::V speed2 =
-      live * relative_speed2<L>(step.parts.motions[sums.part], here, drifting);
+      live * relative_speed2<L>(step.subpieces.motions[sums.subpiece], here, drifting);
   L::store(sums.fastest + lane, L::larger(speed2, L::load(sums.fastest + lane)));
   if constexpr (sizeof(typename L::Real) == 4)
     L::store(sums.speed2 + lane,
@@ -310,26 +310,26 @@ SINEW_INLINE Totals totals_of(const Sums<L>& sums) {
            sum_of<L>(sums.pulled)}};
 }
 
-/// Finds the largest speeds in parts of a piece that has moved, but for blocks of groups alone.
+/// Finds the largest speeds in subpieces of a piece that has moved, but for blocks of groups alone.
 template <class L>
-[[gnu::noinline]] void track_parts(const Step<typename L::Real>& step, std::uint32_t begin,
-                                   std::uint32_t end) {
-  const Parts<typename L::Real>& parts = step.parts;
+[[gnu::noinline]] void track_subpieces(const Step<typename L::Real>& step, std::uint32_t begin,
+                                       std::uint32_t end) {
+  const Subpieces<typename L::Real>& subpieces = step.subpieces;
   const auto& drifting = step.drift_first ? step.before.v : step.after.v;
   const auto counts = [&](std::uint32_t k) {
     return step.grouped.role == nullptr ||
            step.grouped.whole[k / Traits<typename L::Real>::block] == 0;
   };
-  for (std::uint32_t part = begin; part < end; ++part) {
+  for (std::uint32_t subpiece = begin; subpiece < end; ++subpiece) {
     typename L::Real fastest = 0, speed2[L::width];
-    const std::uint32_t last = parts.first[part + 1];
-    for (std::uint32_t k = parts.first[part]; k < last; k += L::width) {
-      L::store(speed2, relative_speed2<L>(parts.motions[part], load_place<L>(step.before.x, k),
-                                          load<L>(drifting, k)));
+    const std::uint32_t last = subpieces.first[subpiece + 1];
+    for (std::uint32_t k = subpieces.first[subpiece]; k < last; k += L::width) {
+      L::store(speed2, relative_speed2<L>(subpieces.motions[subpiece],
+                                          load_place<L>(step.before.x, k), load<L>(drifting, k)));
       for (std::uint32_t lane = 0; lane < L::width && k + lane < last; ++lane)
         fastest = counts(k + lane) && speed2[lane] > fastest ? speed2[lane] : fastest;
     }
-    parts.fastest[part] = fastest;
+    subpieces.fastest[subpiece] = fastest;
   }
 }
 
@@ -338,9 +338,10 @@ template <class L>
 SINEW_INLINE void store_fastest(const Step<typename L::Real>& step, std::size_t piece,
                                 const Sums<L>& sums) {
   const std::size_t next = (piece + 1) * blocks_per_piece;
-  const std::uint32_t end = next < step.blocks ? step.parts.of_block[next] : step.parts.count;
-  if (end != sums.part + 1) return track_parts<L>(step, sums.part, end);
-  typename L::Real& fastest = step.parts.fastest[sums.part] = 0;
+  const std::uint32_t end =
+      next < step.blocks ? step.subpieces.of_block[next] : step.subpieces.count;
+  if (end != sums.subpiece + 1) return track_subpieces<L>(step, sums.subpiece, end);
+  typename L::Real& fastest = step.subpieces.fastest[sums.subpiece] = 0;
   for (const typename L::Real one : sums.fastest) fastest = one > fastest ? one : fastest;
 }
 
@@ -352,7 +353,7 @@ SINEW_INLINE void for_each_vector(const Step<typename L::Real>& step, std::size_
   constexpr int block_size = Traits<typename L::Real>::block;
   for (std::size_t piece = begin; piece < end; ++piece) {
     Sums<L> sums;
-    if constexpr (moves) sums.part = step.parts.of_block[piece * blocks_per_piece];
+    if constexpr (moves) sums.subpiece = step.subpieces.of_block[piece * blocks_per_piece];
     const std::size_t first = piece * blocks_per_piece, last = first + blocks_per_piece;
     for (std::size_t block = first; block < last && block < step.blocks; ++block) {
       if (step.grouped.role != nullptr && step.grouped.role[block] == idle) continue;
@@ -387,7 +388,7 @@ void probe_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
       });
 }
 
-/// The shares of pairwise damping.
+/// Finds Step::inverse_count, for pairwise damping.
 template <class L, PairLaw pairs>
 void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::size_t end) {
   constexpr int size = Traits<typename L::Real>::block;
@@ -400,7 +401,7 @@ void count_pieces(const Step<typename L::Real>& step, std::size_t begin, std::si
       const typename L::V count =
           sums_of<L, pairs, counts, false>(step, law, block, lane, strained).count;
       const auto some = L::less(L::all(0), count);
-      L::store(step.share + static_cast<std::ptrdiff_t>(block) * size + lane,
+      L::store(step.inverse_count + static_cast<std::ptrdiff_t>(block) * size + lane,
                L::keep(some, L::all(1) / L::larger(count, L::all(1))));
     }
   }

@@ -2,7 +2,7 @@
 // Surveys particles: how they move and how far they extend.
 #pragma once
 
-#include <sinew/kernel/parts.h>
+#include <sinew/kernel/vectors.h>
 
 namespace sinew::kernel {
 

@@ -60,8 +60,8 @@ void FixSinew::post_force(int) {
   power_ = damping_power_ = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
     const ParticleRow row = body_->row(i);
-    const HeldParticle particle{row.rest(), position(i), velocity(i), setup.material.pair.r,
-                                static_cast<std::size_t>(id_of(atom->tag[i]))};
+    const ParticleState particle{row.rest(), position(i), velocity(i), setup.material.pair.r,
+                                 static_cast<std::size_t>(id_of(atom->tag[i]))};
     for (int k = 0; k < row.bones(); ++k) {
       const Influence influence = row.influence(k);
       const auto b = static_cast<std::size_t>(influence.bone);

@@ -40,7 +40,7 @@ void FixSinew::find_world_forces() {
   for (int i = 0; i < atom->nlocal; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const std::int32_t number = id_of(atom->tag[i]);
-    const HeldParticle particle{
+    const ParticleState particle{
         {}, position(i), velocity(i), setup.material.pair.r, static_cast<std::size_t>(number)};
     Eigen::Map<Vec3> all(atom->f[i]);
     load_[at] = around_->load(number);

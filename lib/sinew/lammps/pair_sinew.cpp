@@ -157,10 +157,10 @@ void PairSinew::pairwise_damping() {
   for_each_meeting([&](const Meeting& pair) {
     if (!pair.partners) return;
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-    const double share = (1 / body_->neighbors[i] + 1 / body_->neighbors[j]) / 2;
+    const double weight = (1 / body_->neighbors[i] + 1 / body_->neighbors[j]) / 2;
     const Vec3 approach = velocity(pair.i) - velocity(pair.j), along = direction(pair);
     const Vec3 drag =
-        -material.damping * share * (central ? Vec3(approach.dot(along) * along) : approach);
+        -material.damping * weight * (central ? Vec3(approach.dot(along) * along) : approach);
     body_->damping[i] += drag;
     if (pair.of_both) body_->damping[j] -= drag;
   });

@@ -19,14 +19,16 @@ void BondBranches<Real>::put_into(kernel::Bonds<Real>& bonds, double step) {
   double slope = 1;
   for (One& one : all_) {
     const double flows = one.clock.flows(step);
-    slope -= one.branch.share * flows / 2;
+    slope -= one.branch.modulus_ratio * flows / 2;
     bonds.branches_flow = bonds.branches_flow || flows > 0;
-    bonds.branch[bonds.branches++] = {one.stretch.data(), static_cast<Real>(one.branch.share),
+    bonds.branch[bonds.branches++] = {one.stretch.data(),
+                                      static_cast<Real>(one.branch.modulus_ratio),
                                       static_cast<Real>(flows), 0};
   }
   for (std::size_t b = 0; b < all_.size(); ++b) {
     const double flows = all_[b].clock.flows(step);
-    bonds.branch[b].weight = static_cast<Real>(all_[b].branch.share * (1 - flows / 2) / slope);
+    bonds.branch[b].weight =
+        static_cast<Real>(all_[b].branch.modulus_ratio * (1 - flows / 2) / slope);
   }
   bonds.slope = static_cast<Real>(slope);
 }
@@ -45,7 +47,8 @@ void BondBranches<Real>::scale(double factor) {
 template <class Real>
 double BondBranches<Real>::shift(std::size_t place) const {
   double sum = 0;
-  for (const One& one : all_) sum += one.branch.share * static_cast<double>(one.stretch[place]);
+  for (const One& one : all_)
+    sum += one.branch.modulus_ratio * static_cast<double>(one.stretch[place]);
   return sum;
 }
 

@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-// Nearer to the axis than this share of a radius, a particle has no direction across it.
+// Nearer to the axis than this fraction of a radius, a particle has no direction across it.
 constexpr double min_distance = 1e-6;
 
 double place_along(const Bone& bone, const Vec3& point) {
@@ -31,8 +31,8 @@ std::vector<double> centers(const Body& body) {
 
 /// Writes the fields of one lane.
 template <class Real>
-void hold(const Body& body, const Influence& influence, const Vec3& rest, double center,
-          const Units& units, Real* lane) {
+void put_attachment(const Body& body, const Influence& influence, const Vec3& rest, double center,
+                    const Units& units, Real* lane) {
   constexpr std::size_t block = kernel::Traits<Real>::block;
   const Bone& bone = body.skeleton.bones[influence.bone];
   const Vec3 local = bone.rest.rotation.transpose() * (rest - bone.head());
@@ -42,14 +42,14 @@ void hold(const Body& body, const Influence& influence, const Vec3& rest, double
                      body.springs[influence.bone].form == BoneForce::anchor;
   const double at_rest = influence.distance_to(bone, rest);
   const double distance = at_rest < min_distance * r ? 0 : at_rest;
-  const double fields[kernel::held_fields] = {influence.foot - center, local.x() - center,
-                                              aside ? local.y() : 0, aside ? local.z() : 0,
-                                              distance};
-  for (std::size_t field = 0; field < kernel::held_fields; ++field)
+  const double fields[kernel::attachment_fields] = {influence.foot - center, local.x() - center,
+                                                    aside ? local.y() : 0, aside ? local.z() : 0,
+                                                    distance};
+  for (std::size_t field = 0; field < kernel::attachment_fields; ++field)
     lane[field * block] = static_cast<Real>(fields[field] / units.length);
 }
 
-/// The bones that hold particles of a block, in the order of their first ones.
+/// The bones to which particles of a block are bound, in the order of their first ones.
 void find_bones(const Body& body, std::span<const std::int32_t> ids, std::vector<int>& bones) {
   bones.clear();
   for (const std::int32_t id : ids)
@@ -71,8 +71,8 @@ class Filler {
   void fill() {
     count();
     out_.slots.resize(out_.first.back());
-    out_.held.resize(out_.first.back() * kernel::held_fields * block);
-    out_.shares.resize(first_share_.back() * kernel::share_fields * block);
+    out_.attachments.resize(out_.first.back() * kernel::attachment_fields * block);
+    out_.weights.resize(first_weights_.back() * kernel::weight_fields * block);
     on_all_blocks([&](std::size_t b, const std::vector<int>& bones) { fill(b, bones); });
   }
 
@@ -96,8 +96,8 @@ class Filler {
                  });
   }
 
-  /// A bone that holds every lane alone needs no weights.
-  bool shares_are_one(std::size_t b, const std::vector<int>& bones) const {
+  /// A bone to which every lane is bound alone needs no weights.
+  bool weights_are_one(std::size_t b, const std::vector<int>& bones) const {
     const auto alone = [&](std::int32_t id) {
       const auto influences = body_.binding.of(id);
       return influences.size() == 1 && static_cast<Real>(influences[0].weight) == 1;
@@ -106,36 +106,37 @@ class Filler {
     return bones.size() == 1 && all.size() == block && std::all_of(all.begin(), all.end(), alone);
   }
 
-  /// Where each block's slots and shares begin.
+  /// Where each block's slots and weights begin.
   void count() {
     out_.first.assign((id_.size() + block - 1) / block + 1, 0);
-    first_share_ = out_.first;
+    first_weights_ = out_.first;
     on_all_blocks([&](std::size_t b, const std::vector<int>& bones) {
       out_.first[b + 1] = static_cast<std::uint32_t>(bones.size());
-      first_share_[b + 1] = shares_are_one(b, bones) ? 0 : out_.first[b + 1];
+      first_weights_[b + 1] = weights_are_one(b, bones) ? 0 : out_.first[b + 1];
     });
-    for (auto* first : {&out_.first, &first_share_})
+    for (auto* first : {&out_.first, &first_weights_})
       std::partial_sum(first->begin(), first->end(), first->begin());
   }
 
   void fill(std::size_t b, const std::vector<int>& bones) {
     const std::size_t begin = out_.first[b];
-    const bool weighted = first_share_[b] < first_share_[b + 1];
+    const bool weighted = first_weights_[b] < first_weights_[b + 1];
     for (std::size_t k = 0; k < bones.size(); ++k)
       out_.slots[begin + k] = {bones[k],
-                               weighted ? static_cast<std::int32_t>(first_share_[b] + k) : -1};
+                               weighted ? static_cast<std::int32_t>(first_weights_[b] + k) : -1};
     const auto all = ids(b);
     for (std::size_t lane = 0; lane < all.size(); ++lane) {
       const auto influences = body_.binding.of(all[lane]);
       for (const Influence& influence : influences) {
         const auto k = static_cast<std::size_t>(
             std::find(bones.begin(), bones.end(), influence.bone) - bones.begin());
-        hold(body_, influence, body_.rest[all[lane]], out_.center[influence.bone], units_,
-             &out_.held[(begin + k) * kernel::held_fields * block + lane]);
+        put_attachment(body_, influence, body_.rest[all[lane]], out_.center[influence.bone], units_,
+                       &out_.attachments[(begin + k) * kernel::attachment_fields * block + lane]);
         if (!weighted) continue;
-        Real* shares = &out_.shares[(first_share_[b] + k) * kernel::share_fields * block + lane];
-        shares[kernel::weight * block] = static_cast<Real>(influence.weight);
-        shares[kernel::lead * block] = &influence == influences.data() ? Real(1) : Real(0);
+        Real* weights =
+            &out_.weights[(first_weights_[b] + k) * kernel::weight_fields * block + lane];
+        weights[kernel::weight * block] = static_cast<Real>(influence.weight);
+        weights[kernel::lead * block] = &influence == influences.data() ? Real(1) : Real(0);
       }
     }
   }
@@ -144,7 +145,7 @@ class Filler {
   std::span<const std::int32_t> id_;
   const Units& units_;
   BoneSlots<Real>& out_;
-  std::vector<std::uint32_t> first_share_;  ///< blocks + 1 long
+  std::vector<std::uint32_t> first_weights_;  ///< blocks + 1 long
 };
 
 template <class Real>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The binding in the kernel's layout: for each block the bones that hold it, with the coordinates
-// of its particles in each bone's frame side by side.
+// The binding in the kernel's layout: for each block the bones to which it is bound, with the
+// coordinates of its particles in each bone's frame side by side.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ template <class Real>
 struct BoneSlots {
   std::vector<std::uint32_t> first;  ///< blocks + 1 long
   std::vector<kernel::Slot> slots;
-  Lines<Real> held, shares;
+  Lines<Real> attachments, weights;
 
-  /// Origin of each bone's frame, m from the head along the axis: the mean of the particles it
-  /// holds, so that few digits are lost far from a head.
+  /// Origin of each bone's frame, m from the head along the axis: the mean of the particles
+  /// bound to it, so that few digits are lost far from a head.
   std::vector<double> center;
 };
 

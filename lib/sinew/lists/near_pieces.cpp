@@ -19,9 +19,9 @@ constexpr double min_travel = 0.125, travel_in_steps = 16;
 constexpr double min_drift = 0.06, drift_in_steps = 1.5;
 // What a step may take particles without warning, in outer ranges: bonds that snap.
 constexpr double jump = 0.06;
-// Surveys serve when particles have drifted by this share of the inner skin, but not every few
+// Surveys serve when particles have drifted by this fraction of the inner skin, but not every few
 // steps.
-constexpr double drift_share = 0.1;
+constexpr double drift_fraction = 0.1;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 Box expanded(Box box, double by) {
@@ -291,7 +291,7 @@ bool NearPieces::survey_due() const {
     if (gone_[piece] + std::max(last_[piece], jump * ranges_.outer) > drift_[piece]) return true;
   const double per_step = steps_ > 0 ? traveled_ / steps_ : 0;
   return traveled_ + per_step > travel_ ||
-         (steps_ >= ranges_.steps && drifted_ > drift_share * (ranges_.inner - ranges_.force));
+         (steps_ >= ranges_.steps && drifted_ > drift_fraction * (ranges_.inner - ranges_.force));
 }
 
 void NearPieces::looked_at(std::size_t piece, double still) {

@@ -11,8 +11,8 @@
 // pieces can meet. What pairs of pieces have used up of the skins is added step by step, so the
 // lists of a piece are made again when its own surroundings have changed, and not before.
 //
-// What are pieces here are parts of those of the kernel, where these are of several bones or groups
-// (piece_parts.h).
+// What are pieces here are subpieces of those of the kernel, where these are of several bones or
+// groups (subpieces.h).
 //
 // Pieces that are bound to each other, because all of their particles are of one group
 // (groups/groups.h), are left to the caller, and looked up only when it asks.

@@ -8,7 +8,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
-#include <sinew/lists/part_survey.h>
+#include <sinew/lists/subpiece_survey.h>
 #include <sinew/material/laws.h>
 
 namespace sinew {
@@ -63,27 +63,27 @@ double VerletLists<Real>::mean(const std::vector<OffsetLists>& lists) {
 }
 
 template <class Real>
-void VerletLists<Real>::make(BlockState<Real>& state, PieceParts parts,
+void VerletLists<Real>::make(BlockState<Real>& state, Subpieces subpieces,
                              const BondLists<Real>& bonds, const Units& units,
                              const GroupedParticles& groups) {
-  make_each(1, state, std::move(parts), bonds, units, groups);
+  make_each(1, state, std::move(subpieces), bonds, units, groups);
   ++counts_.rebuilds;
 }
 
 template <class Real>
-void VerletLists<Real>::make_some(BlockState<Real>& state, PieceParts parts,
+void VerletLists<Real>::make_some(BlockState<Real>& state, Subpieces subpieces,
                                   const BondLists<Real>& bonds, const Units& units) {
   const std::size_t pieces = (state.blocks() + blocks_per_piece - 1) / blocks_per_piece;
-  make_each(1 + pieces / pieces_in_sample, state, std::move(parts), bonds, units, {});
+  make_each(1 + pieces / pieces_in_sample, state, std::move(subpieces), bonds, units, {});
   if (whole_) ++counts_.rebuilds;
 }
 
 template <class Real>
-void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, PieceParts parts,
+void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Subpieces subpieces,
                                   const BondLists<Real>& bonds, const Units& units,
                                   const GroupedParticles& groups) {
   whole_ = nth == 1;
-  of_ = std::move(parts);
+  of_ = std::move(subpieces);
   ranges_ = {wanted_.force / units.length, wanted_.inner / units.length,
              wanted_.outer / units.length, wanted_.steps};
   time_ = step_ / units.time;
@@ -101,7 +101,7 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Piec
   listed_at_.assign(pieces, 0);
   pruned_at_.assign(pieces, 0);
   looked_.assign(pieces, 0);
-  near_ = NearPieces(ranges_, groups_of_parts(groups), looks_);
+  near_ = NearPieces(ranges_, groups_of_subpieces(groups), looks_);
   grouped_.assign(pieces, 0);
   for (std::size_t piece = 0; piece < groups.of_piece.size(); ++piece)
     grouped_[piece] = groups.of_piece[piece] >= 0 ? 1 : 0;
@@ -112,13 +112,14 @@ void VerletLists<Real>::make_each(std::size_t nth, BlockState<Real>& state, Piec
   list(state, bonds, some, groups);
 }
 
-/// Returns the only group of the piece of each part, or -1; empty without groups.
+/// Returns the only group of the piece of each subpiece, or -1; empty without groups.
 template <class Real>
-std::vector<std::int32_t> VerletLists<Real>::groups_of_parts(const GroupedParticles& groups) const {
-  std::vector<std::int32_t> of_parts;
+std::vector<std::int32_t> VerletLists<Real>::groups_of_subpieces(
+    const GroupedParticles& groups) const {
+  std::vector<std::int32_t> of_subpieces;
   for (const std::uint32_t piece : of_.piece)
-    if (!groups.of_piece.empty()) of_parts.push_back(groups.of_piece[piece]);
-  return of_parts;
+    if (!groups.of_piece.empty()) of_subpieces.push_back(groups.of_piece[piece]);
+  return of_subpieces;
 }
 
 /// What lists of these pieces are made from.
@@ -152,23 +153,24 @@ void VerletLists<Real>::add_strained(const GroupedParticles& groups,
 }
 
 template <class Real>
-kernel::Parts<Real> VerletLists<Real>::parts() {
+kernel::Subpieces<Real> VerletLists<Real>::subpieces() {
   return {of_.first.data(), of_.of_block.data(), static_cast<std::uint32_t>(of_.size()),
           motions_.data(), fastest_.data()};
 }
 
 template <class Real>
 void VerletLists<Real>::add_moved(std::size_t piece, double moved) {
-  for_each_part(piece, [&](std::uint32_t part) {
-    const double speed = std::sqrt(static_cast<double>(fastest_[part])) + moved / time_;
-    fastest_[part] = static_cast<Real>(speed * speed);
+  for_each_subpiece(piece, [&](std::uint32_t subpiece) {
+    const double speed = std::sqrt(static_cast<double>(fastest_[subpiece])) + moved / time_;
+    fastest_[subpiece] = static_cast<Real>(speed * speed);
   });
 }
 
 template <class Real>
 bool VerletLists<Real>::meets_others(std::size_t piece) const {
   bool any = false;
-  for_each_part(piece, [&](std::uint32_t part) { any = any || !near_.others(part).empty(); });
+  for_each_subpiece(piece,
+                    [&](std::uint32_t subpiece) { any = any || !near_.others(subpiece).empty(); });
   return any;
 }
 
@@ -183,25 +185,25 @@ void sort_once(std::vector<std::uint32_t>& pieces) {
 
 template <class Real>
 std::vector<std::uint32_t> VerletLists<Real>::pieces_of(
-    const std::vector<std::uint32_t>& parts) const {
+    const std::vector<std::uint32_t>& subpieces) const {
   std::vector<std::uint32_t> pieces;
-  pieces.reserve(parts.size());
-  for (const std::uint32_t part : parts) pieces.push_back(of_.piece[part]);
+  pieces.reserve(subpieces.size());
+  for (const std::uint32_t subpiece : subpieces) pieces.push_back(of_.piece[subpiece]);
   return pieces;
 }
 
-/// Finds the pieces that any of its parts is near, itself included, ascending. Particles of a group
-/// never touch each other: contacts are with others alone, and without any, nothing is near.
+/// Finds the pieces that any of its subpieces is near, itself included, ascending. Particles of a
+/// group never touch each other: contacts are with others alone, and without any, nothing is near.
 template <class Real>
 std::vector<std::uint32_t> VerletLists<Real>::pieces_near(std::size_t piece) const {
   std::vector<std::uint32_t> pieces;
   const bool with_others = contacts_ && grouped_[piece] != 0;
   if (with_others && meets_others(piece)) pieces.push_back(static_cast<std::uint32_t>(piece));
-  for_each_part(piece, [&](std::uint32_t part) {
+  for_each_subpiece(piece, [&](std::uint32_t subpiece) {
     if (with_others)
-      for (const auto& near : near_.others(part)) pieces.push_back(of_.piece[near.piece]);
+      for (const auto& near : near_.others(subpiece)) pieces.push_back(of_.piece[near.piece]);
     else
-      for (const std::uint32_t near : near_.of(part)) pieces.push_back(of_.piece[near]);
+      for (const std::uint32_t near : near_.of(subpiece)) pieces.push_back(of_.piece[near]);
   });
   sort_once(pieces);
   return pieces;
@@ -223,7 +225,7 @@ void VerletLists<Real>::follow(BlockState<Real>& state, const BondLists<Real>& b
                                const GroupedParticles& groups) {
   Stopwatch watch;
   ++moment_;
-  if (!near_.advance(fastest_of_parts(), time_)) return make(state, of_, bonds, units, groups);
+  if (!near_.advance(fastest_of_subpieces(), time_)) return make(state, of_, bonds, units, groups);
   if (near_.survey_due())
     survey(state, groups);
   else
@@ -268,7 +270,7 @@ std::vector<std::uint32_t> VerletLists<Real>::to_look_at(
 template <class Real>
 void VerletLists<Real>::looked_at(std::size_t piece, double still) {
   looked_[piece] = 1;
-  for_each_part(piece, [&](std::uint32_t part) { near_.looked_at(part, still); });
+  for_each_subpiece(piece, [&](std::uint32_t subpiece) { near_.looked_at(subpiece, still); });
 }
 
 template <class Real>
@@ -303,7 +305,7 @@ void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bon
         remove_bonded(bonds, piece, outer_[piece]);
         outer_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.outer);
       }
-      for_each_part(piece, [&](std::uint32_t part) { near_.listed(part); });
+      for_each_subpiece(piece, [&](std::uint32_t subpiece) { near_.listed(subpiece); });
       if (!groups.of_piece.empty() && groups.of_piece[piece] >= 0)
         listed_at_[piece] = groups.strain[piece];
       prune(state, piece, groups);
@@ -318,7 +320,7 @@ void VerletLists<Real>::prune(BlockState<Real>& state, std::size_t piece,
                               const GroupedParticles& groups) {
   inner_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.inner);
   arrays_[piece] = inner_[piece].arrays();
-  for_each_part(piece, [&](std::uint32_t part) { near_.pruned(part); });
+  for_each_subpiece(piece, [&](std::uint32_t subpiece) { near_.pruned(subpiece); });
   if (!groups.of_piece.empty() && groups.of_piece[piece] >= 0)
     pruned_at_[piece] = groups.strain[piece];
 }
@@ -326,7 +328,8 @@ void VerletLists<Real>::prune(BlockState<Real>& state, std::size_t piece,
 template <class Real>
 Box VerletLists<Real>::box_of(std::size_t piece, const Units& units) const {
   Box box;
-  for_each_part(piece, [&](std::uint32_t part) { box.extend(near_.box_of(part, elapsed_)); });
+  for_each_subpiece(piece,
+                    [&](std::uint32_t subpiece) { box.extend(near_.box_of(subpiece, elapsed_)); });
   box.min() = units.origin + units.length * box.min();
   box.max() = units.origin + units.length * box.max();
   return box;
@@ -340,105 +343,105 @@ ListCounts VerletLists<Real>::counts() const {
   return counts;
 }
 
-// The velocity fields of the parts of neighbor lists: found now and then, and how far particles of
-// each may have moved from them in a step.
+// The velocity fields of the subpieces of neighbor lists: found now and then, and how far particles
+// of each may have moved from them in a step.
 
 namespace {
 
-constexpr std::size_t parts_at_a_time = 4;
+constexpr std::size_t subpieces_at_a_time = 4;
 
-/// Rounding of the kernel's velocity fields, as a share of their speed.
+/// Rounding of the kernel's velocity fields, as a fraction of their speed.
 template <class Real>
 constexpr double rounding = sizeof(Real) == 4 ? 1e-6 : 1e-14;
 
 }  // namespace
 
-/// Surveys a part, at its places.
+/// Surveys a subpiece, at its places.
 template <class Real>
-PieceNow VerletLists<Real>::survey(std::size_t part, BlockState<Real>& state) {
+PieceNow VerletLists<Real>::survey(std::size_t subpiece, BlockState<Real>& state) {
   const auto arrays = state.arrays();
-  const std::size_t begin = of_.first[part], end = of_.first[part + 1];
+  const std::size_t begin = of_.first[subpiece], end = of_.first[subpiece + 1];
   kernel::SurveyInput<Real> input{arrays, begin, end, {}};
   for (int k = 0; k < 3; ++k)
     for (int axis = 0; axis < 3; ++axis)
-      input.axes[k][axis] = static_cast<Real>(axes_[part](axis, k));
-  auto& center = motions_[part].center;
+      input.axes[k][axis] = static_cast<Real>(axes_[subpiece](axis, k));
+  auto& center = motions_[subpiece].center;
   for (int axis = 0; axis < 3; ++axis) center[axis] = arrays.x[axis][(begin + end) / 2];
   const Vec3 middle(static_cast<double>(center[0]), static_cast<double>(center[1]),
                     static_cast<double>(center[2]));
   const kernel::Survey found = kernel_.survey(input, center);
   return motion_of(found, end - begin, middle,
-                   std::exchange(axes_[part], axes_of(found, end - begin)), rounding<Real>);
+                   std::exchange(axes_[subpiece], axes_of(found, end - begin)), rounding<Real>);
 }
 
-/// Finds out how all parts move.
+/// Finds out how all subpieces move.
 template <class Real>
 void VerletLists<Real>::survey(BlockState<Real>& state, const GroupedParticles& groups) {
-  std::vector<PieceNow> parts(of_.size());
-  const auto is_of_group = [&](std::size_t part) {
-    return !groups.of_piece.empty() && groups.of_piece[of_.piece[part]] >= 0;
+  std::vector<PieceNow> subpieces(of_.size());
+  const auto is_of_group = [&](std::size_t subpiece) {
+    return !groups.of_piece.empty() && groups.of_piece[of_.piece[subpiece]] >= 0;
   };
   std::vector<std::uint32_t> others;
-  for (std::uint32_t part = 0; part < parts.size(); ++part)
-    if (!is_of_group(part)) others.push_back(of_.piece[part]);
+  for (std::uint32_t subpiece = 0; subpiece < subpieces.size(); ++subpiece)
+    if (!is_of_group(subpiece)) others.push_back(of_.piece[subpiece]);
   groups.show(others);
-  parallel_for(parts.size(), parts_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t part = begin; part < end; ++part) {
-      auto& motion = motions_[part];
-      PieceNow& now = parts[part];
-      now = is_of_group(part) ? groups.piece_now(of_.piece[part]) : survey(part, state);
+  parallel_for(subpieces.size(), subpieces_at_a_time, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t subpiece = begin; subpiece < end; ++subpiece) {
+      auto& motion = motions_[subpiece];
+      PieceNow& now = subpieces[subpiece];
+      now = is_of_group(subpiece) ? groups.piece_now(of_.piece[subpiece]) : survey(subpiece, state);
       for (int axis = 0; axis < 3; ++axis) {
         motion.velocity[axis] = static_cast<Real>(now.velocity[axis]);
         motion.spin[axis] = static_cast<Real>(now.spin[axis]);
         now.velocity[axis] = static_cast<double>(motion.velocity[axis]);
         now.spin[axis] = static_cast<double>(motion.spin[axis]);
       }
-      centers_[part] = now.center;
-      place_field(part, now.center);
-      speed_[part] = now.velocity.norm() + now.spin.norm() * now.box.diagonal().norm();
+      centers_[subpiece] = now.center;
+      place_field(subpiece, now.center);
+      speed_[subpiece] = now.velocity.norm() + now.spin.norm() * now.box.diagonal().norm();
     }
   });
-  near_.survey(std::move(parts), time_);
+  near_.survey(std::move(subpieces), time_);
   elapsed_ = 0;
   ++counts_.surveys;
 }
 
 template <class Real>
-void VerletLists<Real>::place_field(std::size_t part, const Vec3& at) {
+void VerletLists<Real>::place_field(std::size_t subpiece, const Vec3& at) {
   for (int axis = 0; axis < 3; ++axis)
     if constexpr (sizeof(Real) == 4)
-      motions_[part].center[axis] =
+      motions_[subpiece].center[axis] =
           static_cast<std::int32_t>(static_cast<std::int64_t>(std::nearbyint(at[axis])));
     else
-      motions_[part].center[axis] = at[axis];
+      motions_[subpiece].center[axis] = at[axis];
 }
 
 /// The velocity fields travel with the common velocity.
 template <class Real>
 void VerletLists<Real>::move_fields() {
   elapsed_ += time_;
-  for (std::size_t part = 0; part < motions_.size(); ++part)
-    place_field(part, centers_[part] + elapsed_ * near_.common_velocity());
+  for (std::size_t subpiece = 0; subpiece < motions_.size(); ++subpiece)
+    place_field(subpiece, centers_[subpiece] + elapsed_ * near_.common_velocity());
 }
 
 /// How much faster than by a rigid motion particles within reach of each other may part, since a
 /// step takes them along straight lines.
 template <class Real>
-double VerletLists<Real>::lengthening(std::size_t part) const {
-  const Eigen::Map<const Eigen::Matrix<Real, 3, 1>> spin(motions_[part].spin);
+double VerletLists<Real>::lengthening(std::size_t subpiece) const {
+  const Eigen::Map<const Eigen::Matrix<Real, 3, 1>> spin(motions_[subpiece].spin);
   return spin.template cast<double>().squaredNorm() * time_ / 2 * ranges_.outer;
 }
 
 /// In the last step, relative to their fields, at most.
 template <class Real>
-std::vector<double> VerletLists<Real>::fastest_of_parts() const {
+std::vector<double> VerletLists<Real>::fastest_of_subpieces() const {
   // Fixed-point coordinates are rounded to the nearest unit along each axis, and so are the centers
   // of the velocity fields.
   const double unit = sizeof(Real) == 4 ? 2 / time_ : 0;
   std::vector<double> fastest(of_.size());
-  for (std::size_t part = 0; part < fastest.size(); ++part)
-    fastest[part] = std::sqrt(static_cast<double>(fastest_[part])) * (1 + 1e-5) + unit +
-                    rounding<Real> * speed_[part] + (looks_ ? lengthening(part) : 0);
+  for (std::size_t subpiece = 0; subpiece < fastest.size(); ++subpiece)
+    fastest[subpiece] = std::sqrt(static_cast<double>(fastest_[subpiece])) * (1 + 1e-5) + unit +
+                        rounding<Real> * speed_[subpiece] + (looks_ ? lengthening(subpiece) : 0);
   return fastest;
 }
 

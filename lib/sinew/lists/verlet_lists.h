@@ -9,8 +9,8 @@
 // Lists of materials that know their neighbors at rest hold contacts: pairs that are not bonded,
 // within 2r. In a packed body they are empty until its surface folds onto itself.
 //
-//     lists.make(state, parts, bonds, units);     // at first, and in a new order
-//     step.lists = lists.arrays(), step.parts = lists.parts();
+//     lists.make(state, subpieces, bonds, units);     // at first, and in a new order
+//     step.lists = lists.arrays(), step.subpieces = lists.subpieces();
 //     lists.follow(state, bonds, units, totals);  // after every step
 #pragma once
 
@@ -25,7 +25,7 @@
 #include <sinew/lists/list_counts.h>
 #include <sinew/lists/near_pieces.h>
 #include <sinew/lists/offset_lists.h>
-#include <sinew/lists/piece_parts.h>
+#include <sinew/lists/subpieces.h>
 #include <sinew/material/material.h>
 
 namespace sinew {
@@ -39,8 +39,9 @@ class VerletLists {
 
   /// The inner lists, by piece.
   const kernel::Lists* arrays() const { return arrays_.data(); }
-  /// The parts of the pieces, their velocity fields, and where a step tells how far off these are.
-  kernel::Parts<Real> parts();
+  /// The subpieces of the pieces, their velocity fields, and where a step tells how far off these
+  /// are.
+  kernel::Subpieces<Real> subpieces();
   /// Counts what moved a particle of a piece by so much, in lengths of the kernel, with the step
   /// before.
   void add_moved(std::size_t piece, double moved);
@@ -49,9 +50,9 @@ class VerletLists {
   VerletLists cleared(double step) const;
   bool made() const { return !inner_.empty(); }
   /// Makes all lists; or those of some of the pieces of a large body, to see how long they are.
-  void make(BlockState<Real>& state, PieceParts parts, const BondLists<Real>& bonds,
+  void make(BlockState<Real>& state, Subpieces subpieces, const BondLists<Real>& bonds,
             const Units& units, const GroupedParticles& groups = {});
-  void make_some(BlockState<Real>& state, PieceParts parts, const BondLists<Real>& bonds,
+  void make_some(BlockState<Real>& state, Subpieces subpieces, const BondLists<Real>& bonds,
                  const Units& units);
   /// Whether they are the lists of all pieces.
   bool whole() const { return whole_; }
@@ -79,24 +80,25 @@ class VerletLists {
 
  private:
   static double mean(const std::vector<OffsetLists>& lists);
-  void make_each(std::size_t nth, BlockState<Real>& state, PieceParts parts,
+  void make_each(std::size_t nth, BlockState<Real>& state, Subpieces subpieces,
                  const BondLists<Real>& bonds, const Units& units, const GroupedParticles& groups);
   void survey(BlockState<Real>& state, const GroupedParticles& groups);
-  PieceNow survey(std::size_t part, BlockState<Real>& state);
+  PieceNow survey(std::size_t subpiece, BlockState<Real>& state);
   void move_fields();
-  std::vector<double> fastest_of_parts() const;
-  double lengthening(std::size_t part) const;
-  void place_field(std::size_t part, const Vec3& at);
+  std::vector<double> fastest_of_subpieces() const;
+  double lengthening(std::size_t subpiece) const;
+  void place_field(std::size_t subpiece, const Vec3& at);
   template <class Visit>
-  void for_each_part(std::size_t piece, const Visit& visit) const {
-    for (std::uint32_t part = of_.of_piece[piece]; part < of_.of_piece[piece + 1]; ++part)
-      visit(part);
+  void for_each_subpiece(std::size_t piece, const Visit& visit) const {
+    for (std::uint32_t subpiece = of_.of_piece[piece]; subpiece < of_.of_piece[piece + 1];
+         ++subpiece)
+      visit(subpiece);
   }
-  std::vector<std::uint32_t> pieces_of(const std::vector<std::uint32_t>& parts) const;
+  std::vector<std::uint32_t> pieces_of(const std::vector<std::uint32_t>& subpieces) const;
   std::vector<std::uint32_t> pieces_near(std::size_t piece) const;
   void list(BlockState<Real>& state, const BondLists<Real>& bonds,
             const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups);
-  std::vector<std::int32_t> groups_of_parts(const GroupedParticles& groups) const;
+  std::vector<std::int32_t> groups_of_subpieces(const GroupedParticles& groups) const;
   void show_around(const std::vector<std::uint32_t>& pieces, const GroupedParticles& groups) const;
   void add_strained(const GroupedParticles& groups, std::vector<std::uint32_t>& to_list,
                     std::vector<std::uint32_t>& to_prune) const;
@@ -111,8 +113,8 @@ class VerletLists {
   double time_ = 0;        ///< of a step, in times of the kernel
   ListRanges ranges_;      ///< in its lengths
 
-  PieceParts of_;
-  // Values by part:
+  Subpieces of_;
+  // Values by subpiece:
   NearPieces near_;
   std::vector<Real> fastest_;  ///< squared, in the last step
   std::vector<kernel::RigidMotion<Real>> motions_;

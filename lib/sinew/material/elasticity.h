@@ -56,7 +56,7 @@ inline constexpr double hill_young = 1.3505, hill_shear = 0.5354, hill_poisson =
 /// 1/4 with second neighbors, that of the bonds alone; lower ratios cannot be reached.
 double volume_stiffness_for(double poisson_ratio, double second = 0);
 
-/// The share of its bending stiffness (E I of the filled shape) that a body lacks because it is
+/// The fraction of its bending stiffness (E I of the filled shape) that a body lacks because it is
 /// only `planes` half-planes of particles across: springs end at the outermost particles, not at
 /// the surface. Measured on square FCC bars of 5 to 17 planes: to 0.03 along [100]; of isotropic
 /// bonds, whose surfaces make up for most of it, the most of any direction. At most 1.

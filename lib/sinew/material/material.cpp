@@ -77,13 +77,13 @@ double local_volume_stiffness(const Material& material, double relative, double 
 }
 
 std::size_t BondStrength::branch_count() const {
-  return static_cast<std::size_t>(std::count_if(branches.begin(), branches.end(),
-                                                [](const auto& one) { return one.share > 0; }));
+  return static_cast<std::size_t>(std::count_if(
+      branches.begin(), branches.end(), [](const auto& one) { return one.modulus_ratio > 0; }));
 }
 
 double BondStrength::long_term() const {
   double left = 1;
-  for (const MaxwellBranch& branch : branches) left -= branch.share;
+  for (const MaxwellBranch& branch : branches) left -= branch.modulus_ratio;
   return left;
 }
 

@@ -15,8 +15,8 @@ namespace sinew {
 
 /// A spring and a dashpot in series beside each bond (see maxwell.h).
 struct MaxwellBranch {
-  double share = 0;  ///< g, of the bond's stiffness; 0: none
-  double time = 0;   ///< tau, s
+  double modulus_ratio = 0;  ///< g, of the bond's stiffness; 0: none
+  double time = 0;           ///< tau, s
 };
 
 /// Strength of the bonds of a solid. Strains are changes of a bond's length over its rest length.

@@ -8,8 +8,8 @@ namespace sinew {
 BondSpring Branches::with(BondSpring spring, std::size_t entry) const {
   double slope = 1, shift = 0;
   for (const One& one : all) {
-    slope -= one.share * one.flows / 2;
-    shift += one.share * (1 - one.flows / 2) * one.stretch[entry];
+    slope -= one.modulus_ratio * one.flows / 2;
+    shift += one.modulus_ratio * (1 - one.flows / 2) * one.stretch[entry];
   }
   return {spring.length + shift / slope, spring.stiffness * slope};
 }
@@ -18,7 +18,7 @@ double Branches::energy(const BondSpring& spring, std::size_t entry, double dist
   const double longer = distance - spring.length;
   double squares = 0;
   for (const One& one : all)
-    squares += one.share * one.stretch[entry] * (one.stretch[entry] - 2 * longer);
+    squares += one.modulus_ratio * one.stretch[entry] * (one.stretch[entry] - 2 * longer);
   return spring.stiffness / 2 * squares;
 }
 
@@ -27,7 +27,7 @@ double Branches::relax(const BondSpring& spring, std::size_t entry, double dista
   for (One& one : all) {
     const double elastic = distance - spring.length - one.stretch[entry];
     one.stretch[entry] += one.flows * elastic;
-    freed += one.share * one.flows * (2 - one.flows) * elastic * elastic;
+    freed += one.modulus_ratio * one.flows * (2 - one.flows) * elastic * elastic;
   }
   return spring.stiffness / 2 * freed;
 }
@@ -37,8 +37,8 @@ MaxwellBranches::MaxwellBranches(const BondStrength& strength, std::size_t of_ne
   for (std::size_t b = 0; b < strength.branch_count(); ++b) {
     const MaxwellBranch& branch = strength.branches[b];
     clocks_.emplace_back(branch.time);
-    nearest.all.push_back({branch.share, 0, std::vector<double>(of_nearest, 0)});
-    second.all.push_back({branch.share, 0, std::vector<double>(of_second, 0)});
+    nearest.all.push_back({branch.modulus_ratio, 0, std::vector<double>(of_nearest, 0)});
+    second.all.push_back({branch.modulus_ratio, 0, std::vector<double>(of_second, 0)});
   }
 }
 

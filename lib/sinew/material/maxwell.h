@@ -4,11 +4,11 @@
 // tau. The dashpot's stretch q follows that of the bond, dq/dt = (e - q) / tau with e = d - l, and
 // the bond pulls with k (e - sum g q): k at once, k (1 - sum g) in the end.
 //
-// At certain moments q moves to e by the share a = 1 - exp(-t / tau), t the time around that
-// moment: exact for a held bond, second order in time otherwise. These moments are steps, or as
-// many steps apart as fit a 256th of tau: in single precision q could not follow in smaller parts.
-// The force at that moment is the mean of before and after; what is lost there is the difference of
-// the energies stored, k/2 g a (2 - a) (e - q)^2.
+// At certain moments q moves to e by the fraction a = 1 - exp(-t / tau), t the time around that
+// moment: exact for a bond of constant length, second order in time otherwise. These moments are
+// steps, or as many steps apart as fit a 256th of tau: in single precision q could not follow in
+// smaller parts. The force at that moment is the mean of before and after; what is lost there is
+// the difference of the energies stored, k/2 g a (2 - a) (e - q)^2.
 //
 //     BranchClock clock(branch.time);
 //     const double flows = clock.flows(step);    // at the moment at which a step begins
@@ -30,7 +30,7 @@ class BranchClock {
  public:
   explicit BranchClock(double time, double ahead = 0) : time_(time), ahead_(ahead) {}
 
-  /// The share of its spring's stretch that passes to the dashpot as a step (s) begins; often 0.
+  /// The fraction of its spring's stretch that passes to the dashpot as a step (s) begins; often 0.
   double flows(double step) const { return -std::expm1(-due(step) / time_); }
   void advance(double step) { ahead_ += due(step) - step; }
   double time() const { return time_; }  ///< tau, s
@@ -49,8 +49,8 @@ class BranchClock {
 /// The branches of some bonds.
 struct Branches {
   struct One {
-    double share = 0;             ///< of a bond's stiffness
-    double flows = 0;             ///< share of its spring's stretch that passes to the dashpot now
+    double modulus_ratio = 0;  ///< of a bond's stiffness
+    double flows = 0;          ///< fraction of its spring's stretch that passes to the dashpot now
     std::vector<double> stretch;  ///< of its dashpot, by entry of the bonds, m
   };
   std::vector<One> all;

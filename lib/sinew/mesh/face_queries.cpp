@@ -67,7 +67,7 @@ using Tree = CGAL::AABB_tree<Traits>;
 using Node = CGAL::AABB_node<Traits>;
 
 constexpr int places = 2000, stride = 617;  // coprime: any first part of them is spread as well
-constexpr double thin_share = 0.01;
+constexpr double thin_fraction = 0.01;
 // Boxes visited by all lines, some seconds: hundreds per line are usual, in fans of needles all.
 constexpr std::size_t max_boxes = 20'000'000;
 
@@ -189,8 +189,8 @@ std::optional<double> thinnest_part(const Triangles& surface) {
     if (const auto thickness = rays.thickness(place)) found.push_back(*thickness);
   }
   if (found.empty() || 2 * found.size() < tried) return std::nullopt;
-  const auto rank =
-      found.begin() + static_cast<std::ptrdiff_t>(thin_share * static_cast<double>(found.size()));
+  const auto rank = found.begin() +
+                    static_cast<std::ptrdiff_t>(thin_fraction * static_cast<double>(found.size()));
   std::nth_element(found.begin(), rank, found.end());
   return *rank;
 }

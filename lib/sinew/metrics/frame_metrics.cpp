@@ -81,10 +81,10 @@ Vec3 vector_sum(std::size_t count, const Value& value) {
 
 void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   const std::size_t n = rest.particles();
-  const auto share = [&](std::size_t i) { return rest.density.empty() ? 1 : rest.density[i]; };
+  const auto weight = [&](std::size_t i) { return rest.density.empty() ? 1 : rest.density[i]; };
   const Vec3 center =
-      vector_sum(n, [&](std::size_t i) -> Vec3 { return share(i) * state.positions[i]; }) /
-      statistics(n, share).sum;
+      vector_sum(n, [&](std::size_t i) -> Vec3 { return weight(i) * state.positions[i]; }) /
+      statistics(n, weight).sum;
   out.center_x = center.x(), out.center_y = center.y(), out.center_z = center.z();
   if (state.velocities.empty()) return;
   const auto momentum = [&](std::size_t i) -> Vec3 {

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t particles_per_task = 1024;
 
 /// A bond seen from one of its particles.
-struct HeldBond {
+struct BondState {
   std::uint32_t neighbor;
   Vec3 apart;     ///< from it, m
   double length;  ///< m
@@ -34,7 +34,7 @@ double force_of(const ForcesOfPairs& law, bool nearest, double d, double rest) {
   return law.force ? law.force(d) : not_measured;
 }
 
-/// Calls visit(HeldBond) for the bonds of particle i: to nearest neighbors, then to second ones.
+/// Calls visit(BondState) for the bonds of particle i: to nearest neighbors, then to second ones.
 template <class Visit>
 void for_each_bond(const RestBody& rest, const FrameState& state, std::size_t i,
                    const Visit& visit) {
@@ -44,7 +44,7 @@ void for_each_bond(const RestBody& rest, const FrameState& state, std::size_t i,
     if (lists.size() == 0) return;
     for (std::uint32_t e = lists.first[i]; e < lists.first[i + 1]; ++e) {
       const std::uint32_t j = lists.neighbor[e];
-      HeldBond bond{j, now[i] - now[j], 0, 0, true, 0};
+      BondState bond{j, now[i] - now[j], 0, 0, true, 0};
       bond.length = bond.apart.norm();
       bond.rest = state.bond_rest.empty() ? (rest.shape.points[i] - rest.shape.points[j]).norm()
                                           : state.bond_rest[before + e];
@@ -107,7 +107,7 @@ Mat3 virial_stress(const RestBody& rest, const FrameState& state,
   Mat3 sum = Mat3::Zero();
   bool severed = false;
   if (has_bonds)
-    for_each_bond(rest, state, i, [&](const HeldBond& bond) {
+    for_each_bond(rest, state, i, [&](const BondState& bond) {
       severed = severed || !(bond.rest > 0);
       if (bond.whole && bond.length > 0) sum += virial(bond.force, bond.apart, bond.length);
     });
@@ -117,11 +117,11 @@ Mat3 virial_stress(const RestBody& rest, const FrameState& state,
     const double d = std::sqrt(other.squared);
     sum += virial(rest.law.force(d), other.apart, d);
   }
-  const std::vector<double>& shares = rest.stiffness().share;
-  const double share = shares.empty() ? 1 : shares[i];
-  if (!(share > 0)) return Mat3::Constant(not_measured);
+  const std::vector<double>& shares = rest.stiffness().volume_share;
+  const double volume_share = shares.empty() ? 1 : volume_shares[i];
+  if (!(volume_share > 0)) return Mat3::Constant(not_measured);
   const Mat3 passive = sum / (2 * volume_per_particle(rest.radius));
-  const Mat3 stress = (passive + volume_stress(rest, state, i, severed)) / share;
+  const Mat3 stress = (passive + volume_stress(rest, state, i, severed)) / volume_share;
   return state.muscle_stress.empty() ? stress : Mat3(stress + state.muscle_stress[i]);
 }
 
@@ -148,7 +148,7 @@ BondValues bond_values(const RestBody& rest, const FrameState& state) {
   BondValues values;
   const bool known = rest.law.force && !(rest.law.bonds_change && state.bond_rest.empty());
   for (std::uint32_t i = 0; i < rest.particles(); ++i)
-    for_each_bond(rest, state, i, [&](const HeldBond& bond) {
+    for_each_bond(rest, state, i, [&](const BondState& bond) {
       if (bond.neighbor < i) return;
       values.ends.push_back({i, bond.neighbor});
       values.length.push_back(bond.length);

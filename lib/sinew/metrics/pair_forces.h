@@ -32,7 +32,8 @@ bool knows_forces(const RestBody& rest, const FrameState& state);
 
 /// The virial stress of particle i, Pa: -(1/2V) sum f (x) r over all forces between particles, with
 /// the stress of its volume and of its muscles. V is the volume that its bonds make stiff
-/// (RestBody::share of V0). The forces must be known; `neighbors` are those within b at least.
+/// (RestBody::volume_share of V0). The forces must be known; `neighbors` are those within b at
+/// least.
 Mat3 virial_stress(const RestBody& rest, const FrameState& state,
                    std::span<const Neighbor> neighbors, std::size_t i);
 

@@ -116,22 +116,22 @@ bool all_finite(const Points& points) {
 namespace {
 
 /// Sums k l^2 over a particle's bonds, over that of one inside, where springs differ in stiffness.
-std::vector<double> stiffness_shares(const RestBody& body, const LocalStiffness& local) {
+std::vector<double> volume_shares_by_stiffness(const RestBody& body, const LocalStiffness& local) {
   const ForcesOfPairs& law = body.law;
   if (!local.factor || !law.second) return {};
   const double k = law.bond(0, 1), second = law.second(0, 1);  // of springs with f = k (l - d)
   const double inside =
       12 * k * 4 * body.radius * body.radius + 6 * second * 8 * body.radius * body.radius;
-  std::vector<double> shares(body.particles(), 0);
+  std::vector<double> volume_shares(body.particles(), 0);
   const auto add = [&](const NeighborLists& lists, double stiffness) {
     for (std::size_t i = 0; i < lists.size(); ++i)
       for (const std::uint32_t j : lists.of(i))
-        shares[i] += local.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
+        volume_shares[i] += local.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
                      (body.shape.points[i] - body.shape.points[j]).squaredNorm();
   };
   add(body.shape.neighbors, k);
   add(body.second, second);
-  return shares;
+  return volume_shares;
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ const BondStiffness& RestBody::stiffness() const {
     require(!keeps_volume || found.local.volume_weight.size() == particles(),
             "there are " + std::to_string(particles()) + " particles that keep their volumes, " +
                 "but weights for " + std::to_string(found.local.volume_weight.size()));
-    found.share = stiffness_shares(*this, found.local);
+    found.volume_share = volume_shares_by_stiffness(*this, found.local);
   });
   return stiffness_->stiffness;
 }

@@ -77,7 +77,7 @@ struct Bound {
 struct BondStiffness {
   LocalStiffness local;
   /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
-  std::vector<double> share;
+  std::vector<double> volume_share;
 };
 
 struct RestBody {

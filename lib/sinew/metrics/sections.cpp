@@ -85,7 +85,7 @@ class Cut {
 };
 
 Vec3 place_of(const EdgePoint& point, const Points& points) {
-  return points[point.from] + point.share * (points[point.to] - points[point.from]);
+  return points[point.from] + point.fraction * (points[point.to] - points[point.from]);
 }
 
 Vec3 area_vector(const Ring& ring, const Points& points) {

@@ -17,10 +17,10 @@
 
 namespace sinew {
 
-/// A point of an edge: at the fraction `share` from one end to the other.
+/// A point of an edge: at `fraction` of the way from one end to the other.
 struct EdgePoint {
   int from = 0, to = 0;  ///< points of the surface
-  double share = 0;
+  double fraction = 0;
 };
 
 struct Section {

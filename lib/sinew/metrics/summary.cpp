@@ -211,13 +211,13 @@ std::string reasons_for_distrust(std::span<const FrameMetrics> frames, const Sum
   constexpr double max_inverted = 0.01;  // of the particles
   const auto items = verdict(frames, summary, radius);
   const auto &volume = items[0], &pose = items[1], &inverted = items[3];
-  const double share =
+  const double fraction =
       summary.metrics[metric_index("inverted")].max / static_cast<double>(particles);
   std::string reasons;
   const auto add = [&](bool holds, const std::string& reason) {
     if (holds) reasons += (reasons.empty() ? "" : ", ") + reason;
   };
-  add(share > max_inverted, inverted.value + " particles are inverted");
+  add(fraction > max_inverted, inverted.value + " particles are inverted");
   add(volume.level == Level::poor, "the volume is off by " + volume.value);
   add(pose.level == Level::poor, "the body is " + pose.value + " from the pose of its bones");
   return reasons;

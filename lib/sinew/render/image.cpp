@@ -63,10 +63,10 @@ void smooth_pixel(const Image& image, int x, int y, const std::array<int, 4>& ar
   const float out_of_mean =
       std::abs(static_cast<float>(up + down + left + right) / 4 - static_cast<float>(here)) /
       static_cast<float>(contrast);
-  const float share = 0.5F * std::min(1.0F, 1.5F * out_of_mean);
+  const float weight = 0.5F * std::min(1.0F, 1.5F * out_of_mean);
   const std::uint8_t *own = image.at(x, y), *other = image.at(other_x, other_y);
   for (int c = 0; c < 3; ++c)
-    out[c] = static_cast<std::uint8_t>((1 - share) * own[c] + share * other[c] + 0.5F);
+    out[c] = static_cast<std::uint8_t>((1 - weight) * own[c] + weight * other[c] + 0.5F);
 }
 
 }  // namespace

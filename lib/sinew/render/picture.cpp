@@ -33,9 +33,9 @@ std::uint8_t byte_of(float value) {
   return static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
 }
 
-/// What the background leaves of a pixel's part (0 .. 255) that is covered by `share`.
-float shown_through(const Exposure& exposure, std::size_t part, float share) {
-  return (1 - share) * static_cast<float>(exposure.background[part]);
+/// What the background leaves of a pixel's part (0 .. 255) that is covered by `coverage`.
+float shown_through(const Exposure& exposure, std::size_t part, float coverage) {
+  return (1 - coverage) * static_cast<float>(exposure.background[part]);
 }
 
 /// Darkens the hollows, but never to black.
@@ -90,8 +90,8 @@ void pale(Exposure& picture) {
   for (std::size_t i = 0; i < picture.coverage.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       std::uint8_t& part = picture.image.rgb[3 * i + c];
-      const float share = picture.coverage[i];
-      const float toward = share * 255 + shown_through(picture, c, share);
+      const float coverage = picture.coverage[i];
+      const float toward = coverage * 255 + shown_through(picture, c, coverage);
       part = byte_of(left * static_cast<float>(part) + (1 - left) * toward);
     }
 }

@@ -98,7 +98,7 @@ Exposure unexposed(int width, int height, double pixel) {
 
 }  // namespace
 
-struct Stage::Parts {
+struct Stage::Impl {
   vtkNew<vtkRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
   Shot shot;
@@ -111,7 +111,7 @@ struct Stage::Parts {
 };
 
 /// Renders a tile into its part of the exposure.
-void Stage::Parts::expose(const Tile& tile, Exposure& exposure) {
+void Stage::Impl::expose(const Tile& tile, Exposure& exposure) {
   const Tile drawn = with_border(tile, shot.width, shot.height);
   window->SetSize(times * drawn.width, times * drawn.height);
   aim_at(*renderer->GetActiveCamera(), shot.camera.view, part_of(box, drawn, shot.pixel),
@@ -124,7 +124,7 @@ void Stage::Parts::expose(const Tile& tile, Exposure& exposure) {
   measure(drawn, tile, exposure);
 }
 
-Image Stage::Parts::pixels(const Tile& drawn) const {
+Image Stage::Impl::pixels(const Tile& drawn) const {
   Image image(times * drawn.width, times * drawn.height);
   vtkNew<vtkUnsignedCharArray> rgb;
   window->GetPixelData(0, 0, image.width - 1, image.height - 1, 0, rgb);
@@ -135,30 +135,30 @@ Image Stage::Parts::pixels(const Tile& drawn) const {
 }
 
 /// Depth at every pixel of the tile, coverage averaged over the rendered pixels.
-void Stage::Parts::measure(const Tile& drawn, const Tile& tile, Exposure& exposure) const {
+void Stage::Impl::measure(const Tile& drawn, const Tile& tile, Exposure& exposure) const {
   const int wide = times * drawn.width, high = times * drawn.height;
   const int left = times * (tile.x - drawn.x), top = times * (tile.y - drawn.y);
   vtkNew<vtkFloatArray> buffer;  // 0 (near) .. 1 (background)
   window->GetZbufferData(0, 0, wide - 1, high - 1, buffer);
   const float* z = buffer->GetPointer(0);
   const auto deep = static_cast<float>(box.sizes().z());
-  const float share = 1.0F / static_cast<float>(times * times);
+  const float weight = 1.0F / static_cast<float>(times * times);
   for (int y = 0; y < times * tile.height; ++y)
     for (int x = 0; x < times * tile.width; ++x) {
       const float part = z[static_cast<std::size_t>(high - 1 - top - y) * wide + left + x];
       if (part >= 1) continue;
       const auto pixel = static_cast<std::size_t>(tile.y + y / times) * shot.width + tile.x +
                          static_cast<std::size_t>(x / times);
-      exposure.coverage[pixel] += share;
+      exposure.coverage[pixel] += weight;
       if (y % times == 0 && x % times == 0) exposure.depth.depth[pixel] = part * deep;
     }
 }
 
-Stage::Stage() : parts_(std::make_unique<Parts>()) {
-  parts_->window->SetOffScreenRendering(1);
-  parts_->window->SetMultiSamples(0);
-  parts_->window->AddRenderer(parts_->renderer);
-  if (!parts_->window->SupportsOpenGL())
+Stage::Stage() : impl_(std::make_unique<Impl>()) {
+  impl_->window->SetOffScreenRendering(1);
+  impl_->window->SetMultiSamples(0);
+  impl_->window->AddRenderer(impl_->renderer);
+  if (!impl_->window->SupportsOpenGL())
     throw Error(Exit::not_written,
                 "the display has no OpenGL 3.2; unset DISPLAY to draw without a screen");
 }
@@ -166,23 +166,23 @@ Stage::Stage() : parts_(std::make_unique<Parts>()) {
 Stage::~Stage() = default;
 
 void Stage::aim(const Shot& shot) {
-  parts_->shot = shot;
-  parts_->times = shot.finish == Finish::fine ? 2 : 1;
-  light(*parts_->renderer, shot.finish);
+  impl_->shot = shot;
+  impl_->times = shot.finish == Finish::fine ? 2 : 1;
+  light(*impl_->renderer, shot.finish);
   const auto& [red, green, blue] = shot.background;
-  parts_->renderer->SetBackground(red / 255.0, green / 255.0, blue / 255.0);
-  parts_->box = filled(shot.camera.frame, shot.width, shot.height, shot.pixel);
+  impl_->renderer->SetBackground(red / 255.0, green / 255.0, blue / 255.0);
+  impl_->box = filled(shot.camera.frame, shot.width, shot.height, shot.pixel);
 }
 
-vtkRenderer& Stage::renderer() { return *parts_->renderer; }
+vtkRenderer& Stage::renderer() { return *impl_->renderer; }
 
 Exposure Stage::render() {
-  const Shot& shot = parts_->shot;
+  const Shot& shot = impl_->shot;
   Exposure exposure = unexposed(shot.width, shot.height, shot.pixel);
   exposure.background = shot.background;
-  for (const Tile& tile : tiles_of(shot.width, shot.height, shot.tile / parts_->times))
-    parts_->expose(tile, exposure);
-  parts_->renderer->RemoveAllViewProps();
+  for (const Tile& tile : tiles_of(shot.width, shot.height, shot.tile / impl_->times))
+    impl_->expose(tile, exposure);
+  impl_->renderer->RemoveAllViewProps();
   return exposure;
 }
 

@@ -116,7 +116,7 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-constexpr double offset_share = 1.0 / 30;      // of alpha: CGAL's default
+constexpr double offset_fraction = 1.0 / 30;   // of alpha: CGAL's default
 constexpr double faces_per_square = 2.5;       // of edge alpha: measured, without leaks
 constexpr double max_faces = 1e6;              // minutes
 constexpr std::size_t max_points = 2'000'000;  // some GB, where it leaks into every corner
@@ -185,7 +185,7 @@ Triangles wrapped(const Triangles& surface, double alpha) {
   }
   Mesh mesh;
   PointLimit limit;
-  CGAL::alpha_wrap_3(points, surface.faces, alpha, alpha * offset_share, mesh,
+  CGAL::alpha_wrap_3(points, surface.faces, alpha, alpha * offset_fraction, mesh,
                      CGAL::parameters::default_values(),
                      CGAL::parameters::visitor(std::ref(limit)));
   return triangles_of(mesh, middle);
@@ -204,7 +204,7 @@ double volume_behind_holes(const Triangles& surface) {
 
 /// A wrap that has leaked is a film on both sides of the faces, with some filling in corners.
 void refuse_leak(const Triangles& surface, const Triangles& skin, double alpha) {
-  const double inside = volume(skin), film = area(skin) * alpha * offset_share;
+  const double inside = volume(skin), film = area(skin) * alpha * offset_fraction;
   const double behind = volume_behind_holes(surface);
   std::string what = "encloses " + three_digits(inside);
   if (inside < behind / 2)

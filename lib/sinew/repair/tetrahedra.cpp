@@ -27,10 +27,10 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::C
                                                         Domain::Curve_index>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
-constexpr double sharp = 30;            // degrees, between the normals at an edge
-constexpr double surface_share = 0.05;  // of the size: distance of faces from the surface
-constexpr double min_face_angle = 25;   // degrees
-constexpr double max_slender = 2.5;     // radius of the sphere around over the shortest edge
+constexpr double sharp = 30;               // degrees, between the normals at an edge
+constexpr double surface_fraction = 0.05;  // of the size: distance of faces from the surface
+constexpr double min_face_angle = 25;      // degrees
+constexpr double max_slender = 2.5;        // radius of the sphere around over the shortest edge
 
 Skin skin_of(const Triangles& surface) {
   std::vector<Kernel::Point_3> points;
@@ -85,7 +85,7 @@ VolumeMesh tetrahedra(const Triangles& surface, double size) {
   namespace parameters = CGAL::parameters;
   const Criteria criteria(
       parameters::edge_size = size, parameters::facet_angle = min_face_angle,
-      parameters::facet_size = size, parameters::facet_distance = surface_share * size,
+      parameters::facet_size = size, parameters::facet_distance = surface_fraction * size,
       parameters::cell_radius_edge_ratio = max_slender, parameters::cell_size = size);
   const auto complex = CGAL::make_mesh_3<Complex>(domain, criteria);
   VolumeMesh mesh = mesh_of(complex);

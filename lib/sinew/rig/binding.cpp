@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t particles_per_piece = 4096;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Share of a bone's length that feet of given weights may be beyond its ends. Bones of files share
-// particles around joints, and a foot that stopped at the joint would rotate about it.
+// Fraction of a bone's length that feet of given weights may be beyond its ends. Bones of files
+// share particles around joints, and a foot that stopped at the joint would rotate about it.
 constexpr double beyond_ends = 0.5;
 
 double along(const Bone& bone, const Vec3& point) { return (point - bone.head()).dot(bone.axis()); }
@@ -102,8 +102,8 @@ void choose_nearest(Choice& choice, double particle_volume) {
 std::vector<BoneWeight> weights_of(const Choice& choice, std::size_t i) {
   const auto& given = choice.options.weights;
   if (given && !given->of(i).empty()) return {given->of(i).begin(), given->of(i).end()};
-  return shares_in_zones(choice.zones, choice.nearest[i], choice.rest[i],
-                         [&](int bone) { return choice.distance(i, bone); });
+  return weights_in_zones(choice.zones, choice.nearest[i], choice.rest[i],
+                          [&](int bone) { return choice.distance(i, bone); });
 }
 
 Influence influence_of(const Choice& choice, const BoneWeight& one, const Vec3& point) {
@@ -121,7 +121,8 @@ const BoundRegion* region_of(const std::vector<BoundRegion>& regions, std::size_
 }
 
 /// Adds the influences on one particle, including feet and distances; how many.
-std::size_t add_influences(const Choice& choice, std::size_t i, std::vector<Influence>& held) {
+std::size_t add_influences(const Choice& choice, std::size_t i,
+                           std::vector<Influence>& influences) {
   const Vec3& point = choice.rest[i];
   std::vector<BoneWeight> weights;
   if (const BoundRegion* region = region_of(choice.options.regions, i, point)) {
@@ -132,7 +133,7 @@ std::size_t add_influences(const Choice& choice, std::size_t i, std::vector<Infl
         choice.options.core_radius)
       weights.clear();
   }
-  for (const BoneWeight& one : weights) held.push_back(influence_of(choice, one, point));
+  for (const BoneWeight& one : weights) influences.push_back(influence_of(choice, one, point));
   return weights.size();
 }
 

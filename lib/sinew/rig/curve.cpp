@@ -17,9 +17,9 @@ using Vec4 = Eigen::Vector4d;
 /// intervals: then the guess is right.
 std::size_t key_before(const std::vector<double>& times, double time) {
   const std::size_t last = times.size() - 2;
-  const double share = (time - times.front()) / (times.back() - times.front());
+  const double fraction = (time - times.front()) / (times.back() - times.front());
   const auto guess =
-      std::min(static_cast<std::size_t>(share * static_cast<double>(last + 1)), last);
+      std::min(static_cast<std::size_t>(fraction * static_cast<double>(last + 1)), last);
   if (times[guess] <= time && time < times[guess + 1]) return guess;
   return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) -
                                   times.begin()) -
@@ -214,9 +214,9 @@ using Vec4 = Eigen::Vector4d;
 RotationSample by_turn(const RotationPiece& piece, double s) {
   const auto& [linear, square, cube] = piece.progress;
   const Vec3 turn = piece.c[1].head<3>();
-  const double share = s * (linear + s * (square + s * cube));
+  const double fraction = s * (linear + s * (square + s * cube));
   const double rate = piece.time.speed * (linear + s * (2 * square + s * (3 * cube)));
-  return {rotation_by(share * turn) * Quat(piece.c[0]), rate * turn};
+  return {rotation_by(fraction * turn) * Quat(piece.c[0]), rate * turn};
 }
 
 RotationSample by_turns(const RotationPiece& piece, double s) {

@@ -10,14 +10,14 @@
 namespace sinew {
 namespace {
 
-constexpr double straight = 0.35;     // of the distance from the surface: curves within are lines
-constexpr double max_of_stem = 0.4;   // of a limb lies in the ball where it begins
-constexpr double root_share = 0.15;   // of two limbs, on either side of where they begin
-constexpr double min_bone = 3;        // length of bones in distances from the surface
-constexpr int max_alike = 5;          // bones of a straight limb
-constexpr double trunk_share = 0.4;   // of the angle, where a limb holds others
-constexpr double stout_share = 0.67;  // of the angle, where a limb is about as thick as long
-constexpr double long_trunk = 3;      // in distances from the surface: such limbs bend
+constexpr double straight = 0.35;       // of the distance from the surface: curves within are lines
+constexpr double max_of_stem = 0.4;     // of a limb lies in the ball where it begins
+constexpr double root_fraction = 0.15;  // of two limbs, on either side of where they begin
+constexpr double min_bone = 3;          // length of bones in distances from the surface
+constexpr int max_alike = 5;            // bones of a straight limb
+constexpr double trunk_fraction = 0.4;  // of the angle, where a limb holds others
+constexpr double stout_fraction = 0.67;  // of the angle, where a limb is about as thick as long
+constexpr double long_trunk = 3;         // in distances from the surface: such limbs bend
 
 /// A line with the length up to each of its points.
 class Course {
@@ -38,8 +38,9 @@ class Course {
     double worst = 1, where = 0;
     for (std::size_t i = 0; i < line_.size(); ++i) {
       if (so_far_[i] <= from || so_far_[i] >= to) continue;
-      const double share = std::clamp(chord.dot(line_[i] - head) / chord.squaredNorm(), 0.0, 1.0);
-      const double off = (line_[i] - head - share * chord).norm();
+      const double fraction =
+          std::clamp(chord.dot(line_[i] - head) / chord.squaredNorm(), 0.0, 1.0);
+      const double off = (line_[i] - head - fraction * chord).norm();
       const double excess = off / std::max(straight * inner_[i], least);
       if (excess > worst) worst = excess, where = so_far_[i];
     }
@@ -55,8 +56,8 @@ class Course {
     std::size_t i = 1;
     while (i + 1 < so_far_.size() && so_far_[i] < place) ++i;
     const double span = so_far_[i] - so_far_[i - 1];
-    const double share = span > 0 ? std::clamp((place - so_far_[i - 1]) / span, 0.0, 1.0) : 0;
-    return (1 - share) * values[i - 1] + share * values[i];
+    const double fraction = span > 0 ? std::clamp((place - so_far_[i - 1]) / span, 0.0, 1.0) : 0;
+    return (1 - fraction) * values[i - 1] + fraction * values[i];
   }
 
   const Points& line_;
@@ -145,7 +146,7 @@ class Maker {
   double add_root_between(const std::vector<int>& two) {
     const Course a(limbs_[two[0]]), b(limbs_[two[1]]);
     const double inner = a.inner(0);
-    double half = std::min(root_share * (a.length() + b.length()), b.length() / 3);
+    double half = std::min(root_fraction * (a.length() + b.length()), b.length() / 3);
     while (half > inner / 4 && ((a.at(half) + b.at(half)) / 2 - a.at(0)).norm() > straight * inner)
       half *= 0.8;
     add_bone(root_, "", b.at(half), a.at(half));
@@ -230,9 +231,9 @@ class Maker {
     double angle = options_.angle;
     if (limb.on_ring && !loop) return;
     if (limb.end == Limb::End::fork)
-      angle *= slender < long_trunk ? 0 : trunk_share;
+      angle *= slender < long_trunk ? 0 : trunk_fraction;
     else if (slender < long_trunk)
-      angle *= stout_share;
+      angle *= stout_fraction;
     if (angle == 0) return;
     const Vec3 axis = bend_axis(loop ? Vec3(limb.line.back() - limb.line.front()) : chord);
     for (const std::string& name : names)

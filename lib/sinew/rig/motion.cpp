@@ -44,7 +44,7 @@ void slow_down(LocalMotion& motion, double speed) {
   motion.stretch_rate *= speed;
 }
 
-/// During the preroll: a share `reached` of `goal`, which grows by `rate` per second.
+/// During the preroll: a fraction `reached` of `goal`, which grows by `rate` per second.
 LocalMotion ramped(const LocalMotion& goal, double reached, double rate) {
   const Vec3 turn = rotation_vector(goal.rotation);
   LocalMotion motion;
@@ -118,9 +118,9 @@ LocalMotion Track::at(double time, TrackCursor& cursor) const {
   }
   if (cursor.stretches) {
     const auto sample = sample_of(stretch, time, cursor.stretch);
-    const bool held = sample.value < min_stretch;
-    motion.stretch = held ? min_stretch : sample.value;
-    motion.stretch_rate = held ? 0 : sample.rate;
+    const bool clamped = sample.value < min_stretch;
+    motion.stretch = clamped ? min_stretch : sample.value;
+    motion.stretch_rate = clamped ? 0 : sample.rate;
   }
   return motion;
 }

@@ -106,7 +106,7 @@ struct ClipMoment {
   double time = 0;     ///< of the clip, s
   double speed = 1;    ///< s of the clip per s; 0 where it holds, below 0 where it plays backwards
   bool ramps = false;  ///< in the preroll:
-  double reached = 1, rate = 0;  ///< reached share of the pose, and its rate, 1/s
+  double reached = 1, rate = 0;  ///< reached fraction of the pose, and its rate, 1/s
 };
 
 ClipMoment clip_moment(const Motion& motion, double time);

@@ -13,45 +13,47 @@ namespace sinew {
 namespace {
 
 /// A rotation as a twist about `axis`, then a swing by `lean` about `about` (across the axis).
-struct Parts {
+struct SwingTwist {
   Vec3 axis, about;
   double lean = 0, twist = 0;
 
   Quat twist_turn() const { return rotation_by(twist * axis); }
 };
 
-Parts parts_of(const Quat& rotation, const Vec3& axis) {
+SwingTwist swing_twist_of(const Quat& rotation, const Vec3& axis) {
   const double along = rotation.vec().dot(axis), length = std::hypot(rotation.w(), along);
-  Parts parts{axis, Vec3::Zero()};
+  SwingTwist swing_twist{axis, Vec3::Zero()};
   if (length > 0)
-    parts.twist = rotation_vector({rotation.w() / length, axis.x() * along / length,
-                                   axis.y() * along / length, axis.z() * along / length})
-                      .dot(axis);
-  const Vec3 swing = rotation_vector(rotation * parts.twist_turn().conjugate());
-  parts.lean = swing.norm();
-  if (parts.lean > 0) parts.about = swing / parts.lean;
-  return parts;
+    swing_twist.twist = rotation_vector({rotation.w() / length, axis.x() * along / length,
+                                         axis.y() * along / length, axis.z() * along / length})
+                            .dot(axis);
+  const Vec3 swing = rotation_vector(rotation * swing_twist.twist_turn().conjugate());
+  swing_twist.lean = swing.norm();
+  if (swing_twist.lean > 0) swing_twist.about = swing / swing_twist.lean;
+  return swing_twist;
 }
 
-/// Rates of the parts: lean, the direction of the lean (about the axis at rest), twist; rad/s.
+/// Rates of a swing and a twist: lean, the direction of the lean (about the axis at rest), twist;
+/// rad/s.
 struct Rates {
   double lean, round, twist;
 };
 
 /// Solves omega = round (axis - direction) + lean about + twist direction.
-Rates rates_of(const Parts& parts, const Vec3& omega) {
-  const Vec3 direction = rotation_by(parts.lean * parts.about) * parts.axis;
-  const double sine = std::sin(parts.lean);
-  const double across = omega.cross(direction).dot(parts.about);
-  return {omega.dot(parts.about), sine > 0 ? across / sine : 0,
-          omega.dot(direction) + across * std::tan(parts.lean / 2)};
+Rates rates_of(const SwingTwist& swing_twist, const Vec3& omega) {
+  const Vec3 direction = rotation_by(swing_twist.lean * swing_twist.about) * swing_twist.axis;
+  const double sine = std::sin(swing_twist.lean);
+  const double across = omega.cross(direction).dot(swing_twist.about);
+  return {omega.dot(swing_twist.about), sine > 0 ? across / sine : 0,
+          omega.dot(direction) + across * std::tan(swing_twist.lean / 2)};
 }
 
-void limit_swing(const Bone& bone, const Parts& parts, const Rates& rates, LocalMotion& motion) {
+void limit_swing(const Bone& bone, const SwingTwist& swing_twist, const Rates& rates,
+                 LocalMotion& motion) {
   const Vec3& axis = bone.axis();
-  const Quat swing = rotation_by(bone.limits.swing * parts.about);
+  const Quat swing = rotation_by(bone.limits.swing * swing_twist.about);
   const Vec3 direction = swing * axis;
-  motion.rotation = swing * parts.twist_turn();
+  motion.rotation = swing * swing_twist.twist_turn();
   motion.angular_velocity = rates.round * (axis - direction) + rates.twist * direction;
 }
 
@@ -60,12 +62,12 @@ void limit_swing(const Bone& bone, const Parts& parts, const Rates& rates, Local
 Excess limit(const Bone& bone, LocalMotion& motion) {
   const JointLimits& limits = bone.limits;
   if (!limits.any()) return {};
-  const Parts parts = parts_of(motion.rotation, bone.axis());
-  const Rates rates = rates_of(parts, motion.angular_velocity);
-  const double twist = parts.twist + motion.twist;
+  const SwingTwist swing_twist = swing_twist_of(motion.rotation, bone.axis());
+  const Rates rates = rates_of(swing_twist, motion.angular_velocity);
+  const double twist = swing_twist.twist + motion.twist;
   const double allowed = std::clamp(twist, limits.min_twist, limits.max_twist);
-  const Excess excess = {std::max(0.0, parts.lean - limits.swing), std::abs(twist - allowed)};
-  if (excess.swing > 0) limit_swing(bone, parts, rates, motion);
+  const Excess excess = {std::max(0.0, swing_twist.lean - limits.swing), std::abs(twist - allowed)};
+  if (excess.swing > 0) limit_swing(bone, swing_twist, rates, motion);
   if (excess.twist > 0) {
     motion.twist += allowed - twist;
     motion.twist_rate = -rates.twist;  // compensates the rotation about the bone

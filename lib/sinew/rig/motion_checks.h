@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The limits of joints: how far a bone may lean from its direction at rest on its parent (swing)
 // and rotate about itself (twist). A rotation is a twist about the bone's axis at rest, then a
-// swing, the shortest rotation of that axis to its direction. Motion beyond a limit is held at the
-// limit.
+// swing, the shortest rotation of that axis to its direction. Motion beyond a limit is clamped
+// to the limit.
 //
 //     const Excess excess = limit(bone, motion);
 //     for (const std::string& line : motion_warnings(skeleton, motion, min_shift)) print(line);
@@ -42,7 +42,7 @@ double preroll_for(const Skeleton& skeleton, const Motion& motion);
 // What in a motion would tear a body, or is not done as requested.
 
 /// One line each, with numbers and a cure: bones that do not begin at rest without a preroll, that
-/// jump from key to key or where a loop closes, and that are held at their limits. Shifts below
+/// jump from key to key or where a loop closes, and that are clamped to their limits. Shifts below
 /// `min_shift` (m) and rotations below a degree are not reported.
 std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion& motion,
                                          double min_shift);

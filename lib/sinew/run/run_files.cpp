@@ -220,7 +220,7 @@ void keep_written(RunFiles& run) {
   keep(run.ids, run.body.component);
   if (run.body.bone) keep(run.ids, *run.body.bone);
   if (run.body.weight) keep(run.ids, *run.body.weight);
-  if (run.body.share) keep(run.ids, *run.body.share);
+  if (run.body.volume_share) keep(run.ids, *run.body.volume_share);
   if (run.body.stiffness) keep(run.ids, *run.body.stiffness);
   if (run.body.density) keep(run.ids, *run.body.density);
   if (run.body.volume_stiffness) keep(run.ids, *run.body.volume_stiffness);
@@ -369,7 +369,7 @@ RestInput measured_body(const RunFiles& run) {
   input.law.local = [&run, near = input.neighbors] {
     const LocalMaterial local = local_material(run.body);
     return stiffness_by(std::make_shared<const BondFactors>(
-        bond_factors(positions_of(run.body.particles), *near, run.material, local.share,
+        bond_factors(positions_of(run.body.particles), *near, run.material, local.volume_share,
                      local.stiffness, run.body.volume_stiffness.value_or(std::vector<double>{}))));
   };
   if (run.body.volume_stiffness) input.law.volume_stiffness_of = *run.body.volume_stiffness;

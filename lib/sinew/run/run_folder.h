@@ -59,7 +59,7 @@ void refuse_foreign_files(const RunFolder& folder);
 /// Bytes that remove_old_run would free.
 std::uint64_t size_of_old_run(const RunFolder& folder);
 
-/// Held while pictures are drawn into a folder. The first one removes what killed programs have
+/// Lock while pictures are drawn into a folder. The first one removes what killed programs have
 /// left unfinished there.
 class PicturesLock {
  public:
@@ -72,7 +72,7 @@ class PicturesLock {
   int folder_ = -1;
 };
 
-/// Held while a run works in its folder; the kernel releases it however the program ends. DIR/.lock
+/// Lock while a run works in its folder; the kernel releases it however the program ends. DIR/.lock
 /// names the process that holds it. Where nothing else has come into the folder, the file is
 /// removed at the end, and the folders from `created` on.
 class FolderLock {
@@ -84,7 +84,7 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// The process that held it before and ended without releasing it; "" for none.
+  /// The process that had it before and ended without releasing it; "" for none.
   const std::string& left_by() const { return left_by_; }
 
  private:

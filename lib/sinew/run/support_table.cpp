@@ -36,7 +36,7 @@ Vec3 mean_of(const Support& support, const Points& places) {
 Vec3 mean_of(const Load& load, const Points& places) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 0; n < load.particles.size(); ++n)
-    sum += load.share[n] * places[load.particles[n]];
+    sum += load.weight[n] * places[load.particles[n]];
   return sum;
 }
 

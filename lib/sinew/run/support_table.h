@@ -30,7 +30,7 @@ std::vector<SupportFrame> support_frames(const World& world, const MachineMoment
 
 /// Columns: time (s), name, kind (support or load), force_x, force_y, force_z (N, on the body),
 /// moment_x, moment_y, moment_z (N m, about the pivot), power (W, into the body), displacement_x,
-/// displacement_y, displacement_z (m, mean of what it holds or loads, of a load by its shares),
+/// displacement_y, displacement_z (m, mean of what it holds or loads, of a load by its weights),
 /// pivot_x, pivot_y, pivot_z (m; of a support it moves with it). Supports first, in their order.
 class SupportTable {
  public:

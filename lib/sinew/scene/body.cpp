@@ -155,7 +155,7 @@ std::vector<double> stiffness_of(const Settings& settings, const Surface& surfac
 namespace {
 
 /// Whether the forces depend on how much of the body is around each particle.
-bool needs_shares(const Settings& settings) {
+bool needs_volume_shares(const Settings& settings) {
   return is_isotropic(settings.material, settings.body.packing);
 }
 
@@ -174,7 +174,7 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
   options.keep = body.keep;
   options.clearance = body.clearance;
   options.thickness = body.thickness;
-  options.shares = needs_shares(settings);
+  options.volume_shares = needs_volume_shares(settings);
   options.verify = verify;
   Filling filling = with_context(settings, body.radius ? "body.radius" : "body.count",
                                  [&] { return pack(surface, options); });
@@ -206,7 +206,7 @@ BodyFile body_file(Filling filling, const std::string& origin) {
   body.particles = std::move(filling.particles);
   body.neighbors = std::move(filling.neighbors);
   body.component = std::move(filling.component);
-  if (!filling.share.empty()) body.share = std::move(filling.share);
+  if (!filling.volume_share.empty()) body.volume_share = std::move(filling.volume_share);
   if (!filling.stiffness.empty()) body.stiffness = std::move(filling.stiffness);
   body.meta = json_text(meta);
   return body;
@@ -288,7 +288,7 @@ std::string origin_of(const Settings& settings) {
   for (const LocalMaterialSettings& material : settings.materials)
     for (const auto& field : material_fields())
       hash.add(scene_text(field.get(material), "") + '\n');
-  if (needs_shares(settings)) hash.add("shares of 24 lattices\n");
+  if (needs_volume_shares(settings)) hash.add("shares of 24 lattices\n");
   return hash_text(hash.value());
 }
 

@@ -45,10 +45,11 @@ double memory_per_particle(const StepperChoice& choice, const Body& body) {
   const bool single = choice.precision == Precision::binary32;
   double bytes = single ? memory_with_lists_single : memory_with_lists_double;
   const BondStrength& bond = body.material.bond;
-  const double share = single ? 0.5 : 1;
-  if (keeps_volume(body) || has_muscles(body)) bytes += share * memory_of_strain;
-  if (bond.yield_shear > 0 || bond.breaking_strain > 0) bytes += share * memory_of_changing_bonds;
-  bytes += share * memory_of_branch * static_cast<double>(bond.branch_count());
+  const double fraction = single ? 0.5 : 1;
+  if (keeps_volume(body) || has_muscles(body)) bytes += fraction * memory_of_strain;
+  if (bond.yield_shear > 0 || bond.breaking_strain > 0)
+    bytes += fraction * memory_of_changing_bonds;
+  bytes += fraction * memory_of_branch * static_cast<double>(bond.branch_count());
   return bytes;
 }
 
@@ -75,7 +76,7 @@ Needs needs_of(const Prepared& prepared) {
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
   const double reals_of_world = prepared.body.world ? 3 : 0;  // the force of the world
   const double written =
-      particles * written_share(output, prepared.body.rest, prepared.body.material.pair.r);
+      particles * written_fraction(output, prepared.body.rest, prepared.body.material.pair.r);
   const double bond_lines = output.bonds ? written * bonds_of_one(prepared.body) : 0;
   const double reals =
       bond_lines * reals_per_bond +

@@ -6,7 +6,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/triangles.h>
-#include <sinew/scene/parts.h>
+#include <sinew/scene/particle_parts.h>
 
 namespace sinew {
 namespace {

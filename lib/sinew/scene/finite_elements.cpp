@@ -106,7 +106,7 @@ std::string list_entry(const char* list, std::size_t index) {
 void relax(const MaterialOptions& given, DeckMaterial& material) {
   if (!given.relaxation_shares) return;
   double relaxed = 0;
-  for (const double share : *given.relaxation_shares) relaxed += share;
+  for (const double ratio : *given.relaxation_shares) relaxed += ratio;
   const double nu = material.poisson_ratio;
   const double of_bonds = material.young_modulus / (2 * (1 + nu)), G = (1 - relaxed) * of_bonds;
   const double K = material.young_modulus / (3 * (1 - 2 * nu)) - relaxed * of_bonds * 5 / 3;
@@ -158,22 +158,22 @@ struct NodeSupport {
 Vec3 middle_of(const VolumeMesh& mesh, const ElementParts& parts, const PartSettings& part,
                const std::string& path, const std::vector<std::uint32_t>& nodes) {
   Vec3 sum = Vec3::Zero();
-  double share = 0;
+  double weight = 0;
   if (part.facing) {
     for (const ElementFace& face : parts.faces(part, path)) {
       const double area = area_vector(mesh, face).norm();
-      sum += area * center_of(mesh, face), share += area;
+      sum += area * center_of(mesh, face), weight += area;
     }
-    return sum / share;
+    return sum / weight;
   }
   for (const VolumeElement& element : mesh.elements) {
     const double own = volume_of(mesh, element);
     for (const std::uint32_t node :
          element.used().first(static_cast<std::size_t>(corners_of(element.kind))))
       if (std::binary_search(nodes.begin(), nodes.end(), node))
-        sum += own * mesh.nodes[node], share += own;
+        sum += own * mesh.nodes[node], weight += own;
   }
-  return share > 0 ? Vec3(sum / share) : mesh.nodes[nodes.front()];
+  return weight > 0 ? Vec3(sum / weight) : mesh.nodes[nodes.front()];
 }
 
 NodeSupport support_of(const SupportSettings& given, const std::string& path,
@@ -225,11 +225,11 @@ class Forces {
 
   void add_volume(std::uint32_t element, const Vec3& density) {
     const VolumeElement& one = mesh_.elements[element];
-    add(one.used(), volume_shares(one.kind), volume_of(mesh_, one) * density);
+    add(one.used(), nodal_volume_weights(one.kind), volume_of(mesh_, one) * density);
   }
   void add_area(const ElementFace& face, const Vec3& traction) {
     const VolumeElement& one = mesh_.elements[face.element];
-    add(face_nodes(one, face.face), face_shares(one.kind),
+    add(face_nodes(one, face.face), nodal_face_weights(one.kind),
         area_vector(mesh_, face).norm() * traction);
   }
   std::vector<NodeForce> all() const {
@@ -239,10 +239,10 @@ class Forces {
   }
 
  private:
-  void add(std::span<const std::uint32_t> nodes, std::span<const double> shares,
+  void add(std::span<const std::uint32_t> nodes, std::span<const double> weights,
            const Vec3& force) {
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      sum_.try_emplace(nodes[k], Vec3::Zero()).first->second += shares[k] * force;
+      sum_.try_emplace(nodes[k], Vec3::Zero()).first->second += weights[k] * force;
   }
 
   const VolumeMesh& mesh_;

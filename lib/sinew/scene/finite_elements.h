@@ -21,7 +21,7 @@ struct ElementOptions {
 
 /// Hexahedra for a box along the axes, tetrahedra for other shapes. There is a step for the time of
 /// each frame, but for one at 0 at which nothing acts, and so many between as keep
-/// supports from turning by more than 15 degrees in one. Forces are shared by nodes as the
+/// supports from turning by more than 15 degrees in one. Forces are distributed over nodes as the
 /// elements' shape functions ask. Throws bad input, with the scene's line, for a scene that is not
 /// static, for what elements cannot hold (bones, obstacles, pins, fields, muscles, materials that
 /// are not elastic and isotropic, several bodies), for parts as ElementParts does, and for supports

@@ -74,7 +74,7 @@ std::vector<std::string_view> additional_arrays(const OutputSettings& output, co
   return requested_arrays(words_for_arrays(output, body));
 }
 
-double written_share(const OutputSettings& output, const Points& rest, double radius) {
+double written_fraction(const OutputSettings& output, const Points& rest, double radius) {
   const std::size_t chosen = written_particles(output, rest, radius).size();
   const double of_particles =
       chosen == 0 ? 1 : static_cast<double>(chosen) / static_cast<double>(rest.size());

@@ -31,8 +31,8 @@ std::string words_for_arrays(const OutputSettings& output, const Body& body);
 /// The same without strain_eq, unless output.arrays names it.
 std::string words_asked_for(const OutputSettings& output, const Body& body);
 
-/// The share of all frames' numbers per particle that is written, by output.every, output.region
+/// The fraction of all frames' numbers per particle that is written, by output.every, output.region
 /// and output.inside_every.
-double written_share(const OutputSettings& output, const Points& rest, double radius);
+double written_fraction(const OutputSettings& output, const Points& rest, double radius);
 
 }  // namespace sinew

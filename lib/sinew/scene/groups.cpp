@@ -105,12 +105,12 @@ std::shared_ptr<const Grouping> groups_that_stay(const Settings& settings, const
   return std::make_shared<const Grouping>(static_groups(body, moves, sizes));
 }
 
-double groups_pay_from(const Grouping& grouping, const GroupSizes& sizes, double share) {
+double groups_pay_from(const Grouping& grouping, const GroupSizes& sizes, double time_ratio) {
   const auto all = static_cast<double>(grouping.group.size());
   const auto grouped = static_cast<double>(grouping.grouped());
   const double rim = grouped - static_cast<double>(grouping.inside());
   const double for_rim =
-      std::max(0.0, share * all - (all - grouped));  // in particles that are free
+      std::max(0.0, time_ratio * all - (all - grouped));  // in particles that are free
   const auto largest =
       static_cast<double>(*std::max_element(grouping.sizes.begin(), grouping.sizes.end()));
   const double whole = static_cast<double>(sizes.min_particles) / largest;

@@ -25,9 +25,9 @@ std::shared_ptr<const Grouping> groups_that_stay(const Settings& settings, const
                                                  const Motion& motion, const GroupSizes& sizes);
 
 /// About how many particles the scene needs so that steps with these groups take less time than
-/// without: their rims are a share of the body that falls with the third root of their number.
-/// `share`: measured, of the time of steps without groups; the grouping may have smaller groups
-/// than `sizes` asks for, but some.
-double groups_pay_from(const Grouping& grouping, const GroupSizes& sizes, double share);
+/// without: their rims are a fraction of the body that falls with the third root of their number.
+/// `time_ratio`: measured, of the time of steps without groups; the grouping may have smaller
+/// groups than `sizes` asks for, but some.
+double groups_pay_from(const Grouping& grouping, const GroupSizes& sizes, double time_ratio);
 
 }  // namespace sinew

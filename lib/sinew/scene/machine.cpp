@@ -38,7 +38,7 @@ Vec3 mean_of(const std::vector<std::uint32_t>& particles, const Points& rest) {
 }
 
 Support support_of(const SupportSettings& given, const std::string& path, const Body& body,
-                   const Parts& parts) {
+                   const ParticleParts& parts) {
   Support support;
   support.name = given.name;
   support.particles = parts.particles(given.part, path);
@@ -51,35 +51,35 @@ Support support_of(const SupportSettings& given, const std::string& path, const 
   return support;
 }
 
-/// A force shared by all particles of a part.
+/// A force distributed over all particles of a part.
 Load by_mass(const LoadSettings& given, const std::string& path, const Body& body,
-             const Parts& parts) {
+             const ParticleParts& parts) {
   const std::vector<std::uint32_t> on = parts.particles(given.part, path);
-  std::vector<double> shares;
+  std::vector<double> weights;
   double mass = 0;
   for (const std::uint32_t i : on) {
-    shares.push_back(mass_of(body, i, 1));
-    mass += body.material.mass * shares.back();
+    weights.push_back(mass_of(body, i, 1));
+    mass += body.material.mass * weights.back();
   }
   const Vec3 force = given.gravity ? Vec3(mass * *given.gravity) : *given.force;
-  return force_load(given.name, on, shares, force, body.rest);
+  return force_load(given.name, on, weights, force, body.rest);
 }
 
 /// A force, a traction or a pressure on the faces of a part.
 Load by_area(const LoadSettings& given, const std::string& path, const Body& body,
-             const Parts& parts) {
+             const ParticleParts& parts) {
   const double radius = body.material.pair.r;
   if (given.pressure)
     return pressure_load(given.name, parts.pressed_faces(given.part, path), *given.pressure,
                          body.rest, radius);
   const Triangles faces = parts.faces(given.part, path);
-  const AreaShares shares = area_shares(faces, body.rest, radius);
-  const Vec3 force = given.traction ? Vec3(shares.area * *given.traction) : *given.force;
-  return force_load(given.name, shares.particles, shares.shares, force, body.rest);
+  const AreaWeights area = area_weights(faces, body.rest, radius);
+  const Vec3 force = given.traction ? Vec3(area.area * *given.traction) : *given.force;
+  return force_load(given.name, area.particles, area.weights, force, body.rest);
 }
 
 Load load_of(const LoadSettings& given, const std::string& path, const Body& body,
-             const Parts& parts) {
+             const ParticleParts& parts) {
   const bool on_surface = given.pressure || given.traction || (given.force && given.part.facing);
   Load load = on_surface ? by_area(given, path, body, parts) : by_mass(given, path, body, parts);
   if (given.pivot) load.pivot = *given.pivot;
@@ -106,14 +106,15 @@ Probe point_probe(const Settings& settings, std::size_t index, const Body& body)
 }
 
 Probe part_probe(const std::string& name, std::vector<std::uint32_t> particles) {
-  const double share = 1 / static_cast<double>(particles.size());
+  const double weight = 1 / static_cast<double>(particles.size());
   const std::size_t count = particles.size();
-  return {name, std::move(particles), std::vector<double>(count, share), false};
+  return {name, std::move(particles), std::vector<double>(count, weight), false};
 }
 
 }  // namespace
 
-void add_machine(const Settings& settings, const Body& body, const Parts& parts, World& world) {
+void add_machine(const Settings& settings, const Body& body, const ParticleParts& parts,
+                 World& world) {
   for (std::size_t k = 0; k < settings.supports.size(); ++k)
     world.supports.push_back(
         support_of(settings.supports[k], path_of_one("supports", k), body, parts));
@@ -127,7 +128,8 @@ void add_machine(const Settings& settings, const Body& body, const Parts& parts,
   }
 }
 
-std::vector<Probe> probes_of(const Settings& settings, const Body& body, const Parts& parts) {
+std::vector<Probe> probes_of(const Settings& settings, const Body& body,
+                             const ParticleParts& parts) {
   std::vector<Probe> probes;
   for (std::size_t k = 0; k < settings.probes.size(); ++k) {
     const ProbeSettings& given = settings.probes[k];

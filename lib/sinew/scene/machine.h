@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The testing machine of a scene: its supports, loads and probes, made for its particles.
 //
-//     const Parts parts(settings, body, files.surface, components);
+//     const ParticleParts parts(settings, body, files.surface, components);
 //     add_machine(settings, body, parts, world);
 #pragma once
 
@@ -9,14 +9,15 @@
 #include <string>
 #include <vector>
 
-#include <sinew/scene/parts.h>
+#include <sinew/scene/particle_parts.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
 
 /// Adds the lists `supports` and `loads` to a world that has its pins. Throws bad input, with the
 /// scene's line, for parts without particles or faces, and for supports that contradict each other.
-void add_machine(const Settings& settings, const Body& body, const Parts& parts, World& world);
+void add_machine(const Settings& settings, const Body& body, const ParticleParts& parts,
+                 World& world);
 
 /// A part or a point of the body that is measured.
 struct Probe {
@@ -27,6 +28,7 @@ struct Probe {
 };
 
 /// Throws bad input as add_machine() does.
-std::vector<Probe> probes_of(const Settings& settings, const Body& body, const Parts& parts);
+std::vector<Probe> probes_of(const Settings& settings, const Body& body,
+                             const ParticleParts& parts);
 
 }  // namespace sinew

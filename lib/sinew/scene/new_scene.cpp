@@ -27,17 +27,17 @@ namespace {
 
 // Seconds of filling and stepping on two cores, and at least as fine as looks like a body.
 constexpr double fewest = 3000, most = 10000, max_if_split = 60000;
-constexpr double max_overlap = 0.8;  // of the volume by the faces lies there once
-constexpr double across = 4.5;       // particles across a limb
-constexpr double thin_share = 0.1;   // of the limbs' length is thinner than what counts as thin
-constexpr double max_loose = 0.01;   // of the particles, such as single ones at a tip
-constexpr double min_within = 0.1;   // of the particles, with neighbors on all sides
-constexpr double min_inside = 0.5;   // of the limbs' length, in the body
-constexpr double pictures = 24;      // per second
+constexpr double max_overlap = 0.8;    // of the volume by the faces lies there once
+constexpr double across = 4.5;         // particles across a limb
+constexpr double thin_fraction = 0.1;  // of the limbs' length is thinner than what counts as thin
+constexpr double max_loose = 0.01;     // of the particles, such as single ones at a tip
+constexpr double min_within = 0.1;     // of the particles, with neighbors on all sides
+constexpr double min_inside = 0.5;     // of the limbs' length, in the body
+constexpr double pictures = 24;        // per second
 // A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
 // of waves, and with them steps per second, go with the size.
 constexpr double usual_size = 0.5, usual_modulus = 10e3;
-constexpr double layer_share = 1.0 / 40;  // thickness of a layer along a mesh without inside
+constexpr double layer_fraction = 1.0 / 40;  // thickness of a layer along a mesh without inside
 
 double extent(const Surface& surface) {
   return bounds(surface.triangles.points).sizes().maxCoeff();
@@ -45,7 +45,7 @@ double extent(const Surface& surface) {
 
 /// Instead of a mesh without inside.
 Surface layer_along(const Surface& sheet, NewChoices& choices) {
-  const double thickness = layer_share * extent(sheet);
+  const double thickness = layer_fraction * extent(sheet);
   choices.changed = "a layer of " + three_digits(thickness) + " m along";
   const Triangles layer = thickened(sheet.triangles, thickness);
   PolygonSoup soup{layer.points, {}};
@@ -63,12 +63,12 @@ Surface read_guessing(NewChoices& choices) {
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
-  if (ambiguous_share(surface) <= max_ambiguous && volume_inside(surface) > 0) return surface;
+  if (ambiguous_fraction(surface) <= max_ambiguous && volume_inside(surface) > 0) return surface;
   return layer_along(surface, choices);
 }
 
-/// The share of the limbs' length that lies in the body.
-double share_inside(const std::vector<Limb>& limbs, const Surface& surface) {
+/// The fraction of the limbs' length that lies in the body.
+double fraction_inside(const std::vector<Limb>& limbs, const Surface& surface) {
   const Winding winding = winding_of(surface);
   double inside = 0, all = 0;
   for (const Limb& limb : limbs)
@@ -86,7 +86,7 @@ double share_inside(const std::vector<Limb>& limbs, const Surface& surface) {
 std::vector<Limb> limbs_in(const Surface& surface, NewChoices& choices) {
   try {
     std::vector<Limb> limbs = limbs_of(curve_skeleton(surface.triangles));
-    choices.hollow = !limbs.empty() && share_inside(limbs, surface) < min_inside;
+    choices.hollow = !limbs.empty() && fraction_inside(limbs, surface) < min_inside;
     if (!limbs.empty() && !choices.hollow) return limbs;
   } catch (const Error&) {  // no closed surface can be made of the mesh
   }
@@ -107,7 +107,7 @@ double thin_inner(const std::vector<Limb>& limbs) {
   std::sort(pieces.begin(), pieces.end());
   double so_far = 0;
   for (const auto& [inner, length] : pieces)
-    if ((so_far += length) >= thin_share * all) return inner;
+    if ((so_far += length) >= thin_fraction * all) return inner;
   return std::numeric_limits<double>::infinity();
 }
 
@@ -118,8 +118,9 @@ double three_figures(double value) {
   return parts > 1 ? steps / parts : steps * step;
 }
 
-/// The share of the particles that do not belong to the `parts` largest groups that touch.
-double loose_share(const Particles& particles, const NeighborLists& touching, std::size_t parts) {
+/// The fraction of the particles that do not belong to the `parts` largest groups that touch.
+double loose_fraction(const Particles& particles, const NeighborLists& touching,
+                      std::size_t parts) {
   const int count = static_cast<int>(particles.size());
   UnionFind groups(particles.size());
   for (int i = 0; i < count; ++i)
@@ -127,10 +128,10 @@ double loose_share(const Particles& particles, const NeighborLists& touching, st
   std::vector<std::size_t> sizes(particles.size());
   for (int i = 0; i < count; ++i) ++sizes[groups.first_of(i)];
   std::sort(sizes.rbegin(), sizes.rend());
-  const std::size_t held = std::accumulate(
+  const std::size_t connected = std::accumulate(
       sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(std::min(parts, sizes.size())),
       std::size_t{0});
-  return 1 - static_cast<double>(held) / static_cast<double>(particles.size());
+  return 1 - static_cast<double>(connected) / static_cast<double>(particles.size());
 }
 
 /// Whether the particles are too large: parts of the body do not hold together, or it is one or two
@@ -141,7 +142,7 @@ bool too_coarse(const Particles& particles, std::size_t parts) {
       neighbors_within(positions_of(particles), rest_neighbor_range(particles.radius));
   std::size_t within = 0;
   for (std::size_t i = 0; i < particles.size(); ++i) within += touching.of(i).size() == complete;
-  return loose_share(particles, touching, parts) > max_loose ||
+  return loose_fraction(particles, touching, parts) > max_loose ||
          static_cast<double>(within) < min_within * static_cast<double>(particles.size());
 }
 
@@ -229,9 +230,9 @@ void refine_mesh(const std::string& scene, const Surface& surface, NewChoices& c
 }
 
 void choose_material(const Surface& surface, NewChoices& choices) {
-  const double share = extent(surface) / usual_size;
+  const double ratio = extent(surface) / usual_size;
   choices.settings.material.model = MaterialModel::bonded;
-  choices.settings.material.young_modulus = three_figures(usual_modulus * share * share);
+  choices.settings.material.young_modulus = three_figures(usual_modulus * ratio * ratio);
 }
 
 void choose_binding(BindingOptions& binding, bool hollow) {

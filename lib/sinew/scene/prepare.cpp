@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <sinew/analysis/elastic_modes.h>
-#include <sinew/analysis/held_motion.h>
+#include <sinew/analysis/free_motion.h>
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
@@ -15,7 +15,7 @@
 #include <sinew/scene/context.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/groups.h>
-#include <sinew/scene/parts.h>
+#include <sinew/scene/particle_parts.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
@@ -133,7 +133,7 @@ Material material_of(const Settings& settings, const Particles& particles) {
 
 LocalMaterial local_material(const BodyFile& body) {
   const auto given = [](const auto& values) { return values.value_or(std::vector<double>()); };
-  return {given(body.share), given(body.stiffness), body.component};
+  return {given(body.volume_share), given(body.stiffness), body.component};
 }
 
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
@@ -147,10 +147,10 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.binding = bind_scene(settings, files, body.skeleton, body.rest, body.neighbors->nearest,
                             particles.radius);
   body.lattice = lattice_axes(settings.body);
-  body.share = std::move(local.share);
+  body.volume_share = std::move(local.volume_share);
   body.stiffness = std::move(local.stiffness);
-  set_local_materials(settings, Parts(settings, body, files.surface, local.component), body);
-  body.factors = bond_factors(body.rest, *body.neighbors, body.material, body.share, body.stiffness,
+  set_local_materials(settings, ParticleParts(settings, body, files.surface, local.component), body);
+  body.factors = bond_factors(body.rest, *body.neighbors, body.material, body.volume_share, body.stiffness,
                               body.local.volume);
   body.factors.stiffest = std::max(body.factors.stiffest, stiffest_volume(body));
   set_damping_ratio(settings, body);
@@ -173,7 +173,7 @@ void check_packing(const Settings& settings) {
                     "remove it, or set body.packing to fcc");
 }
 
-/// A body in equilibrium is held.
+/// A body in equilibrium is restrained.
 void refuse_free(const Settings& settings, const Body& body) {
   const auto free = free_motion(body);
   if (!free) return;

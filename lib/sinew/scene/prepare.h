@@ -38,7 +38,7 @@ Material material_of(const Settings& settings, const Particles& particles);
 
 /// What differs from particle to particle, as in Body.
 struct LocalMaterial {
-  std::vector<double> share = {}, stiffness = {};
+  std::vector<double> volume_share = {}, stiffness = {};
   std::vector<std::int32_t> component = {};  ///< of each particle; empty: not known
 };
 LocalMaterial local_material(const BodyFile& body);

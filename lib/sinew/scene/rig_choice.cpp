@@ -22,10 +22,10 @@
 namespace sinew {
 namespace {
 
-constexpr double min_share = 0.5;    // of the bones inside the mesh, for them to belong together
-constexpr double longest_clip = 3;   // s of the scene, for a first picture
-constexpr double min_wait = 0.1;     // s of a clip before its first key, to be left out
-constexpr double well_inside = 0.8;  // a share that no fit improves
+constexpr double min_fraction = 0.5;  // of the bones inside the mesh, for them to belong together
+constexpr double longest_clip = 3;    // s of the scene, for a first picture
+constexpr double min_wait = 0.1;      // s of a clip before its first key, to be left out
+constexpr double well_inside = 0.8;   // a fraction that no fit improves
 constexpr int places_per_bone = 5;
 
 struct Axes {
@@ -35,8 +35,8 @@ struct Axes {
 
 constexpr std::array<Axes, 2> usual_axes = {{{Axis::y, Axis::z}, {Axis::z, std::nullopt}}};
 
-/// Finds the share of the bones' length that is inside.
-double share_inside(const Skeleton& skeleton, const Winding& winding) {
+/// Finds the fraction of the bones' length that is inside.
+double fraction_inside(const Skeleton& skeleton, const Winding& winding) {
   double inside = 0, all = 0;
   for (const Bone& bone : skeleton.bones)
     for (int i = 0; i < places_per_bone; ++i) {
@@ -49,7 +49,7 @@ double share_inside(const Skeleton& skeleton, const Winding& winding) {
 
 struct Placing {
   Axes mesh, rig;
-  double scale = 1, share = -1;
+  double scale = 1, fraction = -1;
 };
 
 /// Units in which rigs come, the mesh's own first, and what makes both equally high.
@@ -73,8 +73,8 @@ Placing placing_of(const Skeleton& skeleton, const Surface& surface, const BodyO
       axes.up = rig.up, axes.forward = rig.forward;
       const Mat3 turn = now * to_scene(turned).transpose() * to_scene(axes);
       for (const double scale : scales) {
-        const double share = share_inside(placed(skeleton, Placement{scale, turn}), winding);
-        if (share > best.share + 0.02) best = {mesh, rig, scale, share};
+        const double fraction = fraction_inside(placed(skeleton, Placement{scale, turn}), winding);
+        if (fraction > best.fraction + 0.02) best = {mesh, rig, scale, fraction};
       }
     }
   }
@@ -84,14 +84,14 @@ Placing placing_of(const Skeleton& skeleton, const Surface& surface, const BodyO
 /// Brings a rig into the mesh that lies elsewhere or in another pose, with the axes as they are.
 void fit_if_better(const Surface& surface, const Skeleton& skeleton, Settings& settings,
                    Placing& placing) {
-  if (placing.share >= well_inside) return;
+  if (placing.fraction >= well_inside) return;
   const Skeleton there = placed(skeleton, placement_of(settings.skeleton));
   const Placement fit = fit_to(surface.triangles, there);
-  const double share = share_inside(placed(there, fit), winding_of(surface));
-  if (share <= placing.share + 0.1) return;
+  const double fraction = fraction_inside(placed(there, fit), winding_of(surface));
+  if (fraction <= placing.fraction + 0.1) return;
   settings.skeleton.fit = Fit::mesh;
   placing.mesh = {settings.body.up, settings.body.forward};
-  placing.share = share;
+  placing.fraction = fraction;
 }
 
 /// s of the clip; all that comes before it is one pose.
@@ -194,11 +194,11 @@ Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
   if (turned)
     surface = read_body_mesh(settings.body, settings), choices.axes = "the bones of the rig lie so";
   choices.bones = std::to_string(skeleton.size()) + " bones of the rig, " +
-                  three_digits(std::round(100 * placing.share)) + " % of them inside the mesh";
+                  three_digits(std::round(100 * placing.fraction)) + " % of them inside the mesh";
   if (settings.skeleton.fit == Fit::mesh) choices.bones += ", where skeleton.fit brings them";
   if (same) choices.bones = std::to_string(skeleton.size()) + " bones of the file itself";
-  if (placing.share < min_share) choices.bones += ": see skeleton.scale, up and forward";
-  if (!rig.weights.weights.empty() && placing.share >= min_share)
+  if (placing.fraction < min_fraction) choices.bones += ": see skeleton.scale, up and forward";
+  if (!rig.weights.weights.empty() && placing.fraction >= min_fraction)
     settings.binding.method = BindMethod::file;
   choose_clip(rig.rig, choices);
   if (rig.rig.clips.empty()) bend_ends(skeleton, choices);

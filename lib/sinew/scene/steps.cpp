@@ -152,9 +152,9 @@ std::vector<double> bone_speeds(const Prepared& prepared) {
   double last = bones.at(0);
   for (int frame = 0; frame < frames.count; ++frame) {
     double fastest = last;
-    const double share = frames.before(frame + 1) / frames.interval;
+    const double fraction = frames.before(frame + 1) / frames.interval;
     for (int sample = 1; sample <= samples; ++sample) {
-      last = bones.at((frame + share * sample / samples) * frames.interval);
+      last = bones.at((frame + fraction * sample / samples) * frames.interval);
       fastest = std::max(fastest, last);
     }
     speeds.push_back(fastest);

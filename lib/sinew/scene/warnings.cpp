@@ -55,13 +55,13 @@ void warn_of_material(const PairForce& pair, Warnings& warnings) {
 }
 
 void warn_of_step(const StepChoice& steps, Warnings& warnings) {
-  const std::string share =
+  const std::string factor =
       "the time step is " + three_digits(steps.factor()) + " of the stability limit: ";
   if (steps.factor() > 1)
-    warnings.push_back(share + "the run will become unstable; use solver.time_step " +
+    warnings.push_back(factor + "the run will become unstable; use solver.time_step " +
                        three_digits(steps.limit / 2) + " or auto");
   else if (steps.factor() > 0.9)
-    warnings.push_back(share + "bent joints oscillate above 0.9; use solver.time_step auto");
+    warnings.push_back(factor + "bent joints oscillate above 0.9; use solver.time_step auto");
 }
 
 void warn_of_speed(double speed, Warnings& warnings) {
@@ -274,10 +274,10 @@ void warn_of_idle_loads(const World* world, Warnings& warnings) {
   for (const Pinned& pin : world->pins)
     if (pin.holds(0) && pin.holds(1) && pin.holds(2)) held.insert(pin.particle);
   for (const Load& load : world->loads) {
-    double idle = 0, all = 0;  // shares below 0 balance those of particles nearer to the surface
+    double idle = 0, all = 0;  // weights below 0 balance those of particles nearer to the surface
     for (std::size_t n = 0; n < load.particles.size(); ++n) {
-      all += std::abs(load.share[n]);
-      if (held.contains(load.particles[n])) idle += std::abs(load.share[n]);
+      all += std::abs(load.weight[n]);
+      if (held.contains(load.particles[n])) idle += std::abs(load.weight[n]);
     }
     if (idle > mostly * all)
       warnings.push_back("load '" + load.name +

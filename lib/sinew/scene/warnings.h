@@ -25,7 +25,7 @@ struct BoneStiffness {
   std::string bone;
   double young_modulus;  ///< of the material along the bone, Pa
   double planes;         ///< half-planes of particles across the body there
-  double lack;           ///< share of the bending stiffness that so few of them lack, at most
+  double lack;           ///< fraction of the bending stiffness that so few of them lack, at most
 
   /// Returns the modulus that a bending body shows, Pa.
   double bending_modulus() const { return young_modulus * (1 - lack); }

@@ -157,9 +157,9 @@ Muscle muscle_of(const MuscleSettings& given, const std::string& path, const Set
   muscle.strength = given.strength;
   muscle.activation = values_of(given.keys);
   const Region region = region_of(given.region);
-  muscle.shares = bone == no_bone || region.shape ? shares_in(region, body.rest)
-                                                  : shares_bound_to(bone, body.binding);
-  if (muscle.shares.empty())
+  muscle.weights = bone == no_bone || region.shape ? weights_in(region, body.rest)
+                                                   : weights_bound_to(bone, body.binding);
+  if (muscle.weights.empty())
     throw bad_input(settings.place(path), "muscle '" + given.name + "' has no particles",
                     "place its region on the body at rest, or name a bone that holds some");
   return muscle;
@@ -172,7 +172,7 @@ void add_muscles(const Settings& settings, const Body& body, World& world) {
   if (muscles.empty()) return;
   world.muscles = with_context(settings, "world.muscles", [&] {
     return make_muscles(rest_shape(body.rest, neighbors_of(body)->nearest), std::move(muscles),
-                        body.share);
+                        body.volume_share);
   });
 }
 
@@ -203,7 +203,7 @@ ObstacleMotion keyed_motion(const std::string& name, Interpolation interpolation
 SceneWorld world_of(const Settings& settings, const SceneFiles& files, const Body& body,
                     std::span<const std::int32_t> component) {
   SceneWorld made;
-  const Parts parts(settings, body, files.surface, component);
+  const ParticleParts parts(settings, body, files.surface, component);
   made.probes = probes_of(settings, body, parts);
   if (settings.world.empty() && settings.supports.empty() && settings.loads.empty()) return made;
   World world;

@@ -92,14 +92,14 @@ void check_bodies(const Settings& settings) {
 
 /// Branches of bonds that relax.
 void check_relaxation(const Settings& settings) {
-  const auto& shares = settings.material.relaxation_shares;
+  const auto& ratios = settings.material.relaxation_shares;
   const auto& times = settings.material.relaxation_times;
-  if (!shares && !times) return;
+  if (!ratios && !times) return;
   const Place place = place_of(settings, "material.relaxation_shares", "material.relaxation_times");
   if (!has_bonds(settings.material.model))
     throw bad_input(place, "the branches that relax are of bonds, and the paper's model has none",
                     "set material.model to bonded or bonded_volume, or remove them");
-  const std::size_t count = shares ? shares->size() : 0;
+  const std::size_t count = ratios ? ratios->size() : 0;
   if (count != (times ? times->size() : 0))
     throw bad_input(place, "relaxation_shares and relaxation_times are not of one length",
                     "give a time for each share");
@@ -108,7 +108,7 @@ void check_relaxation(const Settings& settings) {
                     "a bond has one to four branches that relax, not " + std::to_string(count),
                     "give fewer shares and times");
   double sum = 0;
-  for (const double share : *shares) sum += share;
+  for (const double ratio : *ratios) sum += ratio;
   if (!(sum < 1))
     throw bad_input(place,
                     "the shares that relax come to " + number_text(sum) + ", and leave nothing",

@@ -16,8 +16,8 @@ namespace sinew {
 namespace {
 
 constexpr double shortest = 1.0 / 64;  // of the step, before a body counts as unstable
-// Share of the shear beyond yield that flows in an iteration.
-constexpr double share_of_flow = 0.1;
+// Fraction of the shear beyond yield that flows in an iteration.
+constexpr double flow_fraction = 0.1;
 constexpr double near_rounding = 20;  // times the noise, which is an estimate
 constexpr double at_rounding = 3;     // times the noise: forces that are nothing else
 
@@ -99,7 +99,7 @@ void Relaxation::find_damping(const Imbalance& sums) {
 
 /// Bonds that flow go on to do so where forces balance for a moment.
 bool Relaxation::is_at_rest(const Imbalance& sums) const {
-  const double flowing = step() / share_of_flow * sums.flowing;
+  const double flowing = step() / flow_fraction * sums.flowing;
   if (flowing > steps_.residual * reference() * radius_) return false;
   if (reference() <= noise_) {
     if (sums.loaded > 0 && sums.unbalanced <= at_rounding * noise_) refuse_noise();

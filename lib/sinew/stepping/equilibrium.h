@@ -67,7 +67,7 @@ class Relaxation {
   /// body is at rest, s.
   double time() const;
   double step() const { return step_ * now_.shortened; }  ///< s
-  double keep() const;  ///< the share of the velocities that it leaves
+  double keep() const;  ///< the fraction of the velocities that it leaves
   /// Moments at which the body has been at rest.
   int moments() const { return static_cast<int>(now_.at_rest); }
   /// At the last of them.

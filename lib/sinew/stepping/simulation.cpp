@@ -62,9 +62,9 @@ MakeStepper built_in(kernel::InstructionSet instructions) {
 
 }  // namespace
 
-struct Simulation::Parts {
-  Parts(Body given, Motion given_motion, Particles given_particles, const Stepping& first,
-        MakeStepper with)
+struct Simulation::Impl {
+  Impl(Body given, Motion given_motion, Particles given_particles, const Stepping& first,
+       MakeStepper with)
       : body(std::make_shared<Body>(std::move(given))),
         motion(std::make_shared<const Motion>(std::move(given_motion))),
         cursor(body->skeleton, *motion),
@@ -110,8 +110,8 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
 
 Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
                        MakeStepper make)
-    : its_(std::make_unique<Parts>(std::move(body), std::move(motion), std::move(particles),
-                                   stepping, std::move(make))) {
+    : its_(std::make_unique<Impl>(std::move(body), std::move(motion), std::move(particles),
+                                  stepping, std::move(make))) {
   forget_read();
 }
 

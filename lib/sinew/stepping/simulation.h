@@ -135,7 +135,7 @@ class Simulation {
   ListCounts list_counts() const;
 
  private:
-  struct Parts;
+  struct Impl;
 
   void evaluate();
   double mass(std::size_t i) const;
@@ -152,7 +152,7 @@ class Simulation {
   void change_step(double step);
   [[noreturn]] void fail();  ///< because of the worst of the offenders
 
-  std::unique_ptr<Parts> its_;
+  std::unique_ptr<Impl> its_;
 };
 
 }  // namespace sinew

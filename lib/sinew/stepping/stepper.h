@@ -117,7 +117,7 @@ class Stepper {
   // Steps that bring a body to rest, of steppers that have them.
 
   virtual bool relaxes() const { return false; }
-  /// Velocities keep that share of themselves, and gain accordingly less. Moves nothing yet:
+  /// Velocities keep that fraction of themselves, and gain accordingly less. Moves nothing yet:
   /// accept() does.
   virtual StepSums try_step(const TimedPose&, double) { return {}; }
   virtual void accept() {}
@@ -131,8 +131,10 @@ class Stepper {
   virtual void regroup() {}
   /// The same without a change of the grouping: velocities have changed.
   virtual void fit_groups() {}
-  /// Sums by cell of the body (`cell`: of each particle, by id), after a step.
-  virtual std::vector<HeldCell> held(std::span<const std::int32_t>, std::size_t) const {
+  /// Accelerations that groups do not follow, summed by cell of the body (`cell`: of each particle,
+  /// by id), after a step.
+  virtual std::vector<ConstrainedCell> constrained_cells(std::span<const std::int32_t>,
+                                                         std::size_t) const {
     return {};
   }
 };

@@ -17,7 +17,8 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t max_curves = 30;  // of results over the radius
-// Share of the largest result of its unit: less is zero but for rounding and sides of the packing.
+// Fraction of the largest result of its unit: less is zero but for rounding and sides of the
+// packing.
 constexpr double telling = 1e-3;
 
 std::string header(const Study& study, const std::string& title) {

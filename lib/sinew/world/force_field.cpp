@@ -100,9 +100,9 @@ void check_form(const Swirl& form, const std::string& name) {
 
 Vec3 field_force(const ForceField& field, double scale, const Vec3& position,
                  const ParticleInfo& grain) {
-  const double share = scale * field.region.weight(position);
-  if (share == 0) return Vec3::Zero();
-  return share *
+  const double weight = scale * field.region.weight(position);
+  if (weight == 0) return Vec3::Zero();
+  return weight *
          std::visit([&](const auto& form) { return force_of(form, position, grain); }, field.form);
 }
 

@@ -32,14 +32,14 @@ std::vector<double> areas_of_points(const Triangles& surface) {
   return areas;
 }
 
-AreaShares area_shares(const Triangles& surface, const FollowingPoints& points) {
+AreaWeights area_weights(const Triangles& surface, const FollowingPoints& points) {
   const std::vector<double> areas = areas_of_points(surface);
-  AreaShares all;
+  AreaWeights all;
   for (std::size_t k = 0; k < points.size(); ++k) {
     all.area += areas[k];
     for (std::uint32_t e = points.first[k]; e < points.first[k + 1]; ++e) {
       all.particles.push_back(points.particle[e]);
-      all.shares.push_back(areas[k] * points.weight[e]);
+      all.weights.push_back(areas[k] * points.weight[e]);
     }
   }
   return all;
@@ -48,35 +48,35 @@ AreaShares area_shares(const Triangles& surface, const FollowingPoints& points) 
 }  // namespace
 
 Load force_load(const std::string& name, const std::vector<std::uint32_t>& particles,
-                const std::vector<double>& shares, const Vec3& force, const Points& rest) {
+                const std::vector<double>& weights, const Vec3& force, const Points& rest) {
   std::map<std::uint32_t, double> summed;
   double sum = 0;
   for (std::size_t k = 0; k < particles.size(); ++k) {
-    summed[particles[k]] += shares[k];
-    sum += shares[k];
+    summed[particles[k]] += weights[k];
+    sum += weights[k];
   }
   if (!(std::abs(sum) > 0))
     throw bad_input(name_of(name) + " acts on nothing", "place its region on the body at rest");
   Load load;
   load.name = name;
   load.force = force;
-  for (const auto& [particle, share] : summed) {
+  for (const auto& [particle, weight] : summed) {
     load.particles.push_back(particle);
-    load.share.push_back(share / sum);
-    load.pivot += share / sum * rest[particle];
+    load.weight.push_back(weight / sum);
+    load.pivot += weight / sum * rest[particle];
   }
   return load;
 }
 
-AreaShares area_shares(const Triangles& surface, const Points& rest, double radius) {
-  return area_shares(surface, following(surface.points, rest, radius));
+AreaWeights area_weights(const Triangles& surface, const Points& rest, double radius) {
+  return area_weights(surface, following(surface.points, rest, radius));
 }
 
 Load pressure_load(const std::string& name, const Triangles& surface, double pressure,
                    const Points& rest, double radius) {
   FollowingPoints corners = following(surface.points, rest, radius, followed_by_corners);
-  const AreaShares area = area_shares(surface, corners);
-  Load load = force_load(name, area.particles, area.shares, Vec3::Zero(), rest);
+  const AreaWeights area = area_weights(surface, corners);
+  Load load = force_load(name, area.particles, area.weights, Vec3::Zero(), rest);
   load.pressure = pressure;
   load.faces = surface.faces;
   load.corners = std::move(corners);

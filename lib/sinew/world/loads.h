@@ -27,7 +27,7 @@ struct Load {
   std::string name;
   KeyedValue scale;                            ///< over time; 1 without keys
   std::vector<std::uint32_t> particles;        ///< on which it acts, by id, ascending
-  std::vector<double> share;                   ///< of each of them in `force`; sums to 1
+  std::vector<double> weight;                  ///< of each of them in `force`; sums to 1
   Vec3 force = Vec3::Zero();                   ///< the sum, N
   double pressure = 0;                         ///< Pa, in addition
   std::vector<std::array<int, 3>> faces = {};  ///< on which it acts, of `corners`
@@ -35,11 +35,11 @@ struct Load {
   Vec3 pivot = Vec3::Zero();                   ///< of its moment, m
 };
 
-/// A force (N) shared by particles as listed, with the same number more than once if need be:
-/// shares are summed and made to sum to 1. Its pivot is the mean of `rest` (m) by shares. Throws
-/// bad input, which names it, for no particles and shares that cancel.
+/// A force (N) distributed over particles as listed, with the same number more than once if need
+/// be: weights are summed and made to sum to 1. Its pivot is the mean of `rest` (m) by weights.
+/// Throws bad input, which names it, for no particles and weights that cancel.
 Load force_load(const std::string& name, const std::vector<std::uint32_t>& particles,
-                const std::vector<double>& shares, const Vec3& force, const Points& rest);
+                const std::vector<double>& weights, const Vec3& force, const Points& rest);
 
 /// Number of particles that each corner of a pressure follows: of two layers, at least.
 inline constexpr std::size_t followed_by_corners = 12;
@@ -50,18 +50,18 @@ inline constexpr std::size_t followed_by_corners = 12;
 inline constexpr double longest_pressed_side = 4;
 
 /// A pressure (Pa) on all faces of a surface whose points follow the particles at `rest` with
-/// `radius` (m); its shares are those of the area. Throws bad input for no faces.
+/// `radius` (m); its weights are those of the area. Throws bad input for no faces.
 Load pressure_load(const std::string& name, const Triangles& surface, double pressure,
                    const Points& rest, double radius);
 
-/// The area of the faces around each point, as a force on it that is shared by area: (particle,
-/// share) pairs for force_load(), of points that follow the particles at `rest`.
-struct AreaShares {
+/// The area of the faces around each point, as a force on it that is distributed by area:
+/// (particle, weight) pairs for force_load(), of points that follow the particles at `rest`.
+struct AreaWeights {
   std::vector<std::uint32_t> particles;
-  std::vector<double> shares;  ///< m^2
-  double area = 0;             ///< m^2
+  std::vector<double> weights;  ///< m^2
+  double area = 0;              ///< m^2
 };
-AreaShares area_shares(const Triangles& surface, const Points& rest, double radius);
+AreaWeights area_weights(const Triangles& surface, const Points& rest, double radius);
 
 /// The forces of a load, which must outlive this, at one moment.
 class LoadNow {
@@ -81,7 +81,7 @@ class LoadNow {
 
   /// On load.particles[k], N.
   Vec3 force(std::size_t k) const {
-    Vec3 sum = scale_ * load_->share[k] * load_->force;
+    Vec3 sum = scale_ * load_->weight[k] * load_->force;
     if (!pressed_.empty()) sum += scale_ * load_->pressure * pressed_.force(k);
     return sum;
   }

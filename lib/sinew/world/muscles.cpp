@@ -20,16 +20,16 @@ constexpr double crushed = 0.5;
   throw bad_input("muscle '" + muscle.name + "' " + wrong, cure);
 }
 
-void check_shares(const Muscle& muscle, std::size_t count) {
-  if (muscle.shares.empty())
+void check_weights(const Muscle& muscle, std::size_t count) {
+  if (muscle.weights.empty())
     refuse(muscle, "has 0 particles", "place its region on the body at rest");
-  for (std::size_t k = 0; k < muscle.shares.size(); ++k) {
-    const MuscleShare& share = muscle.shares[k];
-    if (share.particle >= count || (k > 0 && share.particle <= muscle.shares[k - 1].particle))
-      refuse(muscle, "names particle " + std::to_string(share.particle) + " out of order",
+  for (std::size_t k = 0; k < muscle.weights.size(); ++k) {
+    const MuscleWeight& entry = muscle.weights[k];
+    if (entry.particle >= count || (k > 0 && entry.particle <= muscle.weights[k - 1].particle))
+      refuse(muscle, "names particle " + std::to_string(entry.particle) + " out of order",
              "give particles of the body, ascending");
-    if (!(share.weight > 0 && share.weight <= 1))
-      refuse(muscle, "has a share of " + number_text(share.weight), "give shares in (0, 1]");
+    if (!(entry.weight > 0 && entry.weight <= 1))
+      refuse(muscle, "has a share of " + number_text(entry.weight), "give shares in (0, 1]");
   }
 }
 
@@ -39,18 +39,18 @@ void check_muscle(const Muscle& muscle, std::size_t count) {
   if (!std::isfinite(muscle.strength))
     refuse(muscle, "has a strength of " + number_text(muscle.strength), "give a finite stress");
   check_keys(muscle.activation, 0, 1, "the activation of muscle '" + muscle.name + "'");
-  check_shares(muscle, count);
+  check_weights(muscle, count);
 }
 
-/// Sorts the shares of all muscles by particle.
+/// Sorts the weights of all muscles by particle.
 void sort_fibers(Muscles& all) {
   const std::size_t count = all.rest.points.size();
   std::vector<std::vector<Muscles::Fiber>> of(count);
   for (std::size_t m = 0; m < all.muscles.size(); ++m)
-    for (const MuscleShare& share : all.muscles[m].shares)
-      if (all.rest.defined(share.particle))
-        of[share.particle].push_back(
-            {static_cast<std::uint32_t>(m), share.weight * all.share_of(share.particle)});
+    for (const MuscleWeight& entry : all.muscles[m].weights)
+      if (all.rest.defined(entry.particle))
+        of[entry.particle].push_back(
+            {static_cast<std::uint32_t>(m), entry.weight * all.volume_share_of(entry.particle)});
   all.row.assign(count, -1);
   all.first.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -190,25 +190,25 @@ void add_rows(const Muscles& all, std::size_t row, std::vector<double>& sums) {
 
 }  // namespace
 
-std::vector<MuscleShare> shares_in(const Region& region, const Points& rest) {
-  std::vector<MuscleShare> shares;
+std::vector<MuscleWeight> weights_in(const Region& region, const Points& rest) {
+  std::vector<MuscleWeight> weights;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     const double weight = region.weight(rest[i]);
-    if (weight > 0) shares.push_back({static_cast<std::uint32_t>(i), weight});
+    if (weight > 0) weights.push_back({static_cast<std::uint32_t>(i), weight});
   }
-  return shares;
+  return weights;
 }
 
-std::vector<MuscleShare> shares_bound_to(int bone, const Binding& binding) {
-  std::vector<MuscleShare> shares;
+std::vector<MuscleWeight> weights_bound_to(int bone, const Binding& binding) {
+  std::vector<MuscleWeight> weights;
   for (std::size_t i = 0; i + 1 < binding.first.size(); ++i)
     for (const Influence& influence : binding.of(i))
       if (influence.bone == bone && influence.weight > 0)
-        shares.push_back({static_cast<std::uint32_t>(i), std::min(influence.weight, 1.0)});
-  return shares;
+        weights.push_back({static_cast<std::uint32_t>(i), std::min(influence.weight, 1.0)});
+  return weights;
 }
 
-Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles, std::span<const double> share) {
+Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles, std::span<const double> volume_share) {
   for (Muscle& muscle : muscles) {
     check_muscle(muscle, rest.points.size());
     muscle.direction.normalize();
@@ -216,13 +216,13 @@ Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles, std::span<cons
   Muscles all;
   all.rest = std::move(rest);
   all.muscles = std::move(muscles);
-  all.share.assign(share.begin(), share.end());
+  all.volume_share.assign(volume_share.begin(), volume_share.end());
   sort_fibers(all);
   return all;
 }
 
 Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles,
-                     std::span<const double> share) {
+                     std::span<const double> volume_share) {
   return make_muscles(rest_shape(std::move(rest), rest_neighbor_range(radius)), std::move(muscles),
                       share);
 }
@@ -258,9 +258,9 @@ std::vector<Mat3> muscle_stress(const Muscles& muscles, const Activations& activ
   parallel_for(F.size(), muscle_particles_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const std::uint32_t i = muscles.active[row];
-      if (muscles.share_of(i) > 0)
+      if (muscles.volume_share_of(i) > 0)
         stress[i] = nominal_stress(muscles, activations, row, F[row]) * F[row].transpose() /
-                    muscles.share_of(i);
+                    muscles.volume_share_of(i);
     }
   });
   return stress;

@@ -13,7 +13,7 @@
 //   U = a S V0 w ln(lambda),  lambda = |F t0|,
 //   force on neighbor j: -V0 P A^-1 X_ij, the opposite on i,  P = a S w (F t0) t0^T / lambda^2,
 // with A = sum X X^T at rest and w the particle's weight. P F^T is symmetric, so momentum and
-// angular momentum are conserved. Below lambda = 1/2, lambda^2 is held at 1/4 and U continued
+// angular momentum are conserved. Below lambda = 1/2, lambda^2 stays at 1/4 and U continued
 // smoothly: a crushed fiber loses its pull instead of gaining without limit. Particles whose
 // neighbors at rest lie in a plane have no F, and no fibers.
 #pragma once
@@ -31,7 +31,7 @@
 namespace sinew {
 
 /// The weight of a muscle in a particle.
-struct MuscleShare {
+struct MuscleWeight {
   std::uint32_t particle = 0;  ///< by id
   double weight = 1;           ///< in (0, 1]
 };
@@ -41,21 +41,21 @@ struct Muscle {
   Vec3 direction = Vec3::UnitZ();  ///< of its fibers at rest (a bone's axis, say), any length but 0
   double strength = 0;             ///< S, Pa, tension positive
   KeyedValue activation;           ///< over time, in [0, 1]; 1 without keys
-  std::vector<MuscleShare> shares;  ///< ascending particles
+  std::vector<MuscleWeight> weights;  ///< ascending particles
 };
 
 /// The particles at `rest` (n x 3, m, by id) in a region, with its weights there.
-std::vector<MuscleShare> shares_in(const Region& region, const Points& rest);
+std::vector<MuscleWeight> weights_in(const Region& region, const Points& rest);
 
 /// The particles bound to a bone, with the bone's weights.
-std::vector<MuscleShare> shares_bound_to(int bone, const Binding& binding);
+std::vector<MuscleWeight> weights_bound_to(int bone, const Binding& binding);
 
 /// All muscles of a body, with what the rest state determines.
 struct Muscles {
   /// One muscle's fiber in one particle.
   struct Fiber {
     std::uint32_t muscle;
-    double weight;  ///< with the particle's share of the body
+    double weight;  ///< with the particle's volume share
   };
 
   RestShape rest;
@@ -64,20 +64,20 @@ struct Muscles {
   std::vector<std::int32_t> row;      ///< by id: index in active, -1 for none
   std::vector<std::uint32_t> first;   ///< one longer than active; fibers of row k
   std::vector<Fiber> fibers;          ///< those of a particle in the order of the muscles
-  std::vector<double> share;          ///< by id; empty: 1 each
+  std::vector<double> volume_share;   ///< by id; empty: 1 each
 
-  double share_of(std::size_t i) const { return share.empty() ? 1 : share[i]; }
+  double volume_share_of(std::size_t i) const { return volume_share.empty() ? 1 : volume_share[i]; }
 };
 
 /// Prepares the muscles of a body at rest (m, by id; neighbors: nearest ones).
 /// Throws bad input for a direction of zero length, a strength that is not finite, activations
-/// outside [0, 1], shares of unknown particles, out of order or outside (0, 1].
-/// `share`: of the body around each particle, by id, over that of one inside; empty: 1 each.
+/// outside [0, 1], weights of unknown particles, out of order or outside (0, 1].
+/// `volume_share`: of the body around each particle, by id, over that of one inside; empty: 1 each.
 Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles,
-                     std::span<const double> share = {});
+                     std::span<const double> volume_share = {});
 /// The same of particles of `radius` (m), whose neighbors are searched.
 Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles,
-                     std::span<const double> share = {});
+                     std::span<const double> volume_share = {});
 
 /// The activation of each muscle at one moment.
 struct Activations {

@@ -13,7 +13,7 @@ namespace sinew {
 namespace {
 
 // Axes given with rounded digits are accepted; the distance is then wrong by no more than this
-// share.
+// fraction.
 constexpr double square_enough = 1e-6;
 // Closer than this to a capsule's segment, in radii, a direction is rounding.
 constexpr double rounding_of_lengths = 1e-9;
@@ -36,8 +36,8 @@ SignedDistance distance_to(const CapsuleShape& capsule, const Vec3& point) {
   const Vec3 along = capsule.b - capsule.a;
   const double squared = along.squaredNorm();
   if (!(squared > 0)) return from_point(point - capsule.a, capsule.radius, Vec3::UnitZ());
-  const double share = std::clamp((point - capsule.a).dot(along) / squared, 0.0, 1.0);
-  const Vec3 offset = point - (capsule.a + share * along);
+  const double fraction = std::clamp((point - capsule.a).dot(along) / squared, 0.0, 1.0);
+  const Vec3 offset = point - (capsule.a + fraction * along);
   // On the axis the direction would be rounding alone, and might be that of the axis.
   if (offset.norm() < rounding_of_lengths * capsule.radius)
     return {offset.norm() - capsule.radius, frame_along(along).col(1)};

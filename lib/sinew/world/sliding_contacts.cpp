@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-// Shares of the contact's own stiffness k, and of sqrt(k m).
+// Fractions of the contact's own stiffness k, and of sqrt(k m).
 constexpr double softer_across = 0.5, damped_across = 0.25;
 constexpr double beyond_second = 3.1;  // in radii; second neighbors of a lattice are 2.83 apart
 

@@ -14,7 +14,7 @@ constexpr std::size_t max_contacts = 3;  // of one particle at once, for the ste
 /// Gathers the forces on one particle.
 class Gatherer {
  public:
-  Gatherer(const HeldParticle& particle, double mass, const World& world, const WorldNow& now,
+  Gatherer(const ParticleState& particle, double mass, const World& world, const WorldNow& now,
            std::span<Reaction> reactions)
       : particle_(particle), mass_(mass), world_(world), now_(now), reactions_(reactions) {}
 
@@ -78,7 +78,7 @@ class Gatherer {
     reactions_[k].moment -= (particle_.position - pose.frame.origin).cross(force);
   }
 
-  const HeldParticle& particle_;
+  const ParticleState& particle_;
   double mass_;
   const World& world_;
   const WorldNow& now_;
@@ -132,7 +132,7 @@ PinPose held_place(const Pinned& held, const Vec3& rest, const World& world,
                        : place_of(held, rest, world.supports, supports);
 }
 
-ParticleWorld world_on(const HeldParticle& particle, double mass, const World& world,
+ParticleWorld world_on(const ParticleState& particle, double mass, const World& world,
                        const WorldNow& now, const Vec3& others, double step,
                        std::span<Reaction> reactions) {
   Gatherer gatherer(particle, mass, world, now, reactions);

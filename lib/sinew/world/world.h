@@ -73,7 +73,7 @@ struct ParticleWorld {
 /// them with dry friction: a particle that slides stops at the end of the step (s), or is subject
 /// to mu f_n where that is less; of several obstacles each acts on what the ones before it leave.
 /// No such friction with a step of 0.
-ParticleWorld world_on(const HeldParticle& particle, double mass, const World& world,
+ParticleWorld world_on(const ParticleState& particle, double mass, const World& world,
                        const WorldNow& now, const Vec3& others, double step,
                        std::span<Reaction> reactions);
 

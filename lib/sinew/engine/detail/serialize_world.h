@@ -134,7 +134,7 @@ void serialize(Archive& archive, Load& load) {
   archive(load.name);
   archive(load.scale);
   archive(load.particles);
-  archive(load.share);
+  archive(load.weight);
   archive(load.force);
   archive(load.pivot);
 }

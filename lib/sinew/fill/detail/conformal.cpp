@@ -141,7 +141,7 @@ Irregular conformal_packing(const BodySpace& space, const PackOptions& options,
   for (int round = 0; round < rounds; ++round) {
     if (round > 0) outer.find(places);
     relax(places, {.distance = nearest_distance(r),
-                   .held = outer.deep(),
+                   .fixed = outer.deep(),
                    .field = [&](std::size_t i, const Vec3& at) { return outer.force(i, at); },
                    .max_steps = steps_of_each});
   }

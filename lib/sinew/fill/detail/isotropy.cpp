@@ -12,7 +12,7 @@ constexpr int directions = 1000;
 
 using Voigt = Eigen::Matrix<double, 6, 1>;
 
-/// The products n_i n_j, which are a strain's share in the stretch along n where shears are
+/// The products n_i n_j, which are a strain's weights in the stretch along n where shears are
 /// engineering ones.
 Voigt products(const Vec3& n) {
   return (Voigt() << n.x() * n.x(), n.y() * n.y(), n.z() * n.z(), n.y() * n.z(), n.z() * n.x(),

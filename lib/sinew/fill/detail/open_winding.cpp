@@ -105,20 +105,21 @@ OpenWinding::Node OpenWinding::summary(int first, int last) const {
   return node;
 }
 
-OpenWinding::Share OpenWinding::share(std::size_t row, int site) const {
+OpenWinding::Contribution OpenWinding::contribution(std::size_t row, int site) const {
   double doubt = 0;
   return sum(view(row, site), std::numeric_limits<double>::infinity(), doubt);
 }
 
-OpenWinding::Share OpenWinding::share(std::size_t row, int site, const Enough& enough) const {
+OpenWinding::Contribution OpenWinding::contribution(std::size_t row, int site,
+                                                    const Enough& enough) const {
   const View from = view(row, site);
   double farness = 3;
   for (int attempt = 0; attempt < 6; ++attempt, farness *= 1.7) {
     double doubt = 0;
-    const Share found = sum(from, farness, doubt);
+    const Contribution found = sum(from, farness, doubt);
     if (doubt < enough.doubt || std::abs(found.value - enough.threshold) > 3 * doubt) return found;
   }
-  return share(row, site);
+  return contribution(row, site);
 }
 
 OpenWinding::View OpenWinding::view(std::size_t row, int site) const {
@@ -126,10 +127,10 @@ OpenWinding::View OpenWinding::view(std::size_t row, int site) const {
   return {row, site, at, frame_.turned(at)};
 }
 
-OpenWinding::Share OpenWinding::sum(const View& view, double farness, double& doubt) const {
+OpenWinding::Contribution OpenWinding::sum(const View& view, double farness, double& doubt) const {
   std::array<int, 64> waiting;  // the tree is shallower, by halving
   int count = 0;
-  Share all{0, std::numeric_limits<double>::infinity()};
+  Contribution all{0, std::numeric_limits<double>::infinity()};
   waiting[count++] = 0;
   while (count > 0) {
     const Node& node = nodes_[waiting[--count]];
@@ -142,7 +143,7 @@ OpenWinding::Share OpenWinding::sum(const View& view, double farness, double& do
       doubt += 3 * node.reach * node.reach * node.size / (4 * pi * square * square);
     } else if (node.left < 0) {
       for (int i = node.first; i < node.last; ++i) {
-        const Share one = strips(view, sorted_[i]);
+        const Contribution one = strips(view, sorted_[i]);
         all = {all.value + one.value, std::min(all.clearance, one.clearance)};
       }
     } else {
@@ -192,7 +193,7 @@ OpenWinding::Ray OpenWinding::ray(const View& view, const Vec3& corner) const {
   return ray;
 }
 
-OpenWinding::Share OpenWinding::strips(const View& view, const Cap& cap) const {
+OpenWinding::Contribution OpenWinding::strips(const View& view, const Cap& cap) const {
   const auto& face = caps_.faces[cap.face];
   std::array<Ray, 3> rays;
   for (int corner = 0; corner < 3; ++corner) rays[corner] = ray(view, caps_.points[face[corner]]);
@@ -288,7 +289,7 @@ double OpenSweep::winding(std::size_t row, int site) const {
   int sum = 0;
   for (const Crossing& one : crossings_.of(row))
     if (one.site <= site) sum += one.winding;
-  return sum + (winding_.none() ? 0 : winding_.share(row, site, {0.02, 1e9}).value);
+  return sum + (winding_.none() ? 0 : winding_.contribution(row, site, {0.02, 1e9}).value);
 }
 
 /// Between two crossings the winding number varies smoothly, faster near the surface: it is
@@ -297,7 +298,7 @@ void OpenSweep::add_between(std::size_t row, int first, int last, int sum, RowRu
   if (first >= last) return;
   const std::vector<int> sites = doubling_from_both_ends(first, last);
   const auto look = [&](int site) {
-    const auto [value, clearance] = winding_.share(row, site, {0.001, 0.5 - sum});
+    const auto [value, clearance] = winding_.contribution(row, site, {0.001, 0.5 - sum});
     return Looked{site, sum - 0.5 + value, clearance / (2 * lattice_.radius)};
   };
   Looked before = look(sites[0]);

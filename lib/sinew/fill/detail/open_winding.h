@@ -29,20 +29,20 @@ class OpenWinding {
 
   bool none() const { return nodes_.empty(); }
 
-  struct Share {
+  struct Contribution {
     double value;      ///< contribution of the caps to the winding number
     double clearance;  ///< lower bound on the distance to the border, m
   };
 
   /// At a site, in full precision.
-  Share share(std::size_t row, int site) const;
+  Contribution contribution(std::size_t row, int site) const;
 
-  /// Required accuracy of a share: `doubt`, or a third of its distance from `threshold`.
+  /// Required accuracy of a contribution: `doubt`, or a third of its distance from `threshold`.
   struct Enough {
     double doubt;
     double threshold;
   };
-  Share share(std::size_t row, int site, const Enough& enough) const;
+  Contribution contribution(std::size_t row, int site, const Enough& enough) const;
 
  private:
   /// Far-field expansion of caps first .. last - 1. Lengths in the frame of the rows.
@@ -67,10 +67,10 @@ class OpenWinding {
   int build(int first, int last);
   Node summary(int first, int last) const;
   View view(std::size_t row, int site) const;
-  Share sum(const View& view, double farness, double& doubt) const;
+  Contribution sum(const View& view, double farness, double& doubt) const;
   static double from_afar(const Node& node, const Vec3& to, double distance);
   int before(const View& view, int first, int last) const;
-  Share strips(const View& view, const Cap& cap) const;
+  Contribution strips(const View& view, const Cap& cap) const;
   Ray ray(const View& view, const Vec3& corner) const;
   double turn(const View& view, const Cap& cap, int corner, const Ray& a, const Ray& b) const;
 

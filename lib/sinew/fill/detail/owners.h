@@ -20,7 +20,7 @@ class Owners {
   virtual Vec3 place(std::size_t particle) const = 0;
   /// The particle nearest to a point, within 3 units; else -1.
   virtual std::int64_t nearest(const Vec3& at) const = 0;
-  /// Whether other particles are all around it, so that its share is known to be 1.
+  /// Whether other particles are all around it, so that its volume share is known to be 1.
   virtual bool surrounded(std::size_t particle) const = 0;
   /// Calls visit(j) for the particles that touch it.
   virtual void for_each_touching(std::size_t particle,

@@ -16,7 +16,7 @@ namespace {
 
 // Radii around the body: so far particles are strewn, and so far others keep their sites and hold
 // them together.
-constexpr double strewn_to = 5, held_to = 9;
+constexpr double strewn_to = 5, fixed_to = 9;
 constexpr double strewn_by = 2;  // radii at most: nothing is left of the lattice
 
 /// The sites of the body and of what is within a distance (m) of it.
@@ -36,17 +36,17 @@ std::vector<Run> runs_around(const BodySpace& space, const PackOptions& options,
 /// The lattice, and its sites that hold the others together.
 FilledSites wide_sites(const BodySpace& space, const PackOptions& options, const Lattice& lattice) {
   const double r = lattice.radius;
-  const Vec3 wider = Vec3::Constant(held_to * r);
+  const Vec3 wider = Vec3::Constant(fixed_to * r);
   FilledSites wide{lattice_in(Box(space.box.min() - wider, space.box.max() + wider), Packing::fcc,
                               r, lattice.origin),
                    {},
                    {}};
-  wide.runs = runs_around(space, options, wide.lattice, held_to * r);
+  wide.runs = runs_around(space, options, wide.lattice, fixed_to * r);
   return wide;
 }
 
 /// Strews particles among each other, by the place of each one's site alone, but none among those
-/// that are held: it would stay there.
+/// that are fixed: it would stay there.
 class Strewing {
  public:
   Strewing(const Lattice& lattice, const std::vector<Run>& runs, int seed)
@@ -79,12 +79,12 @@ Irregular random_packing(const BodySpace& space, const PackOptions& options,
   const Strewing strewing(wide.lattice, strewn, options.seed);
   const std::vector<LatticePlace> sites = places_of(wide);
   Points places = positions_of(wide.lattice, wide.runs);
-  std::vector<char> held(places.size());
+  std::vector<char> fixed(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    held[i] = strewing.has(sites[i]) ? 0 : 1;
-    if (held[i] == 0) places[i] = strewing.place(sites[i], places[i]);
+    fixed[i] = strewing.has(sites[i]) ? 0 : 1;
+    if (fixed[i] == 0) places[i] = strewing.place(sites[i], places[i]);
   }
-  relax(places, {.distance = nearest_distance(r), .held = held});
+  relax(places, {.distance = nearest_distance(r), .fixed = fixed});
 
   const FilledSpace inside(space, options, r);
   Irregular packed;

@@ -61,7 +61,7 @@ class Relaxation {
       moved_ = 0;
     }
     for_each([&](std::size_t i) {
-      if (options_.held[i] != 0) return;
+      if (options_.fixed[i] != 0) return;
       Vec3 sum = options_.field ? options_.field(i, points_[i]) : Vec3(Vec3::Zero());
       for (const std::uint32_t j : lists_.of(i)) {
         const Vec3 apart = (points_[i] - points_[j]) / options_.distance;

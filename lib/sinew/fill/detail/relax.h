@@ -4,7 +4,7 @@
 // is approached by FIRE (Bitzek et al. 2006).
 //
 //     Points points = ...;
-//     relax(points, {.distance = 2 * radius, .held = held});
+//     relax(points, {.distance = 2 * radius, .fixed = fixed});
 #pragma once
 
 #include <functional>
@@ -15,8 +15,8 @@
 namespace sinew {
 
 struct RelaxOptions {
-  double distance = 0;            ///< D, below which they push, m
-  const std::vector<char>& held;  ///< by particle: whether it stays where it is
+  double distance = 0;             ///< D, below which they push, m
+  const std::vector<char>& fixed;  ///< by particle: whether it stays where it is
   /// A further force on a particle at a place, over that of a pair at d = 0; none: nothing.
   std::function<Vec3(std::size_t particle, const Vec3& place)> field = {};
   int max_steps = 150;

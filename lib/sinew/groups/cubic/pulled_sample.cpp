@@ -44,24 +44,24 @@ PulledSample<Real>::PulledSample(Quadrature quadrature, const InnerParticles& pa
 }
 
 template <class Real>
-void PulledSample<Real>::hold(const kernel::Holds<Real>& body) {
-  holds_first_.assign(1, 0);
+void PulledSample<Real>::bind(const kernel::Bindings<Real>& body) {
+  bindings_first_.assign(1, 0);
   slots_.clear();
-  std::vector<std::size_t> held, shares;
+  std::vector<std::size_t> attachments, weights;
   for (const std::uint32_t b : quadrature_.block) {
     for (std::size_t s = body.first[b]; s < body.first[b + 1]; ++s) {
       kernel::Slot slot = body.slots[s];
-      if (slot.shares >= 0) {
-        shares.push_back(static_cast<std::size_t>(slot.shares));
-        slot.shares = static_cast<std::int32_t>(shares.size() - 1);
+      if (slot.weights >= 0) {
+        weights.push_back(static_cast<std::size_t>(slot.weights));
+        slot.weights = static_cast<std::int32_t>(weights.size() - 1);
       }
-      held.push_back(s);
+      attachments.push_back(s);
       slots_.push_back(slot);
     }
-    holds_first_.push_back(static_cast<std::uint32_t>(slots_.size()));
+    bindings_first_.push_back(static_cast<std::uint32_t>(slots_.size()));
   }
-  held_ = rows_of(body.held, held, kernel::held_fields * block);
-  shares_ = rows_of(body.shares, shares, kernel::share_fields * block);
+  attachments_ = rows_of(body.attachments, attachments, kernel::attachment_fields * block);
+  weights_ = rows_of(body.weights, weights, kernel::weight_fields * block);
 }
 
 template <class Real>
@@ -71,7 +71,8 @@ kernel::PullSums PulledSample<Real>::pull(const PulledRun& run, kernel::Motions 
                                           const GroupMotion& motion) {
   kernel::Step<Real> own = step;
   own.before = state_.arrays();
-  own.holds = {holds_first_.data(), slots_.data(), held_.data(), shares_.data(), step.holds.bones};
+  own.bindings = {bindings_first_.data(), slots_.data(), attachments_.data(), weights_.data(),
+                  step.bindings.bones};
   kernel.put[motions]({own.before,
                        run.begin * block,
                        run.end * block,

@@ -4,7 +4,7 @@
 // apart, and each would have to be fetched anew.
 //
 //     PulledSample<Real> sample(quadrature, particles);
-//     if (!sample.is_held()) sample.hold(step.holds);
+//     if (!sample.is_bound()) sample.bind(step.bindings);
 //     for (const PulledRun& run : sample.runs())  // in parallel
 //       sums.push_back(sample.pull(run, kernel::cubic, kernel, step, motion_of(run.group)));
 #pragma once
@@ -35,9 +35,9 @@ class PulledSample {
   PulledSample(Quadrature quadrature, const InnerParticles& particles);
 
   const std::vector<PulledRun>& runs() const { return runs_; }
-  /// Copies how bones hold its particles from those of the body.
-  void hold(const kernel::Holds<Real>& body);
-  bool is_held() const { return !holds_first_.empty(); }
+  /// Copies how its particles are bound to bones from those of the body.
+  void bind(const kernel::Bindings<Real>& body);
+  bool is_bound() const { return !bindings_first_.empty(); }
   /// Moves a run's particles to where the group's motion (in the kernel's units) brings them, and
   /// sums up what the bones exert there. For each run once at a time.
   kernel::PullSums pull(const PulledRun& run, kernel::Motions motions,
@@ -53,9 +53,9 @@ class PulledSample {
   std::array<std::vector<double>, 3> at_;
   std::array<Lines<Real>, 3> at_of_kernel_;
   BlockState<Real> state_;
-  std::vector<std::uint32_t> holds_first_;
+  std::vector<std::uint32_t> bindings_first_;
   std::vector<kernel::Slot> slots_;
-  Lines<Real> held_, shares_;
+  Lines<Real> attachments_, weights_;
 };
 
 }  // namespace sinew

@@ -13,7 +13,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
-#include <sinew/lists/piece_parts.h>
+#include <sinew/lists/subpieces.h>
 
 namespace sinew {
 namespace {
@@ -144,19 +144,20 @@ void GroupLimits<Real>::set_order() {
   strains_.assign(layout_->pieces(), 0);
   strained_until_.assign(layout_->pieces(), -1);
   const auto& places = layout_->places();
-  const PieceParts parts = piece_parts(*body_, places.id, BlockState<Real>::block);
-  for (std::uint32_t part = 0; part < parts.size(); ++part) {
+  const Subpieces subpieces = subpieces_of(*body_, places.id, BlockState<Real>::block);
+  for (std::uint32_t subpiece = 0; subpiece < subpieces.size(); ++subpiece) {
     const std::size_t first = boxes_.size();
-    const std::uint32_t piece = parts.piece[part];
-    if (parts.of_piece[piece] == part) box_of_[piece] = static_cast<std::uint32_t>(first);
-    layout_->for_each_run(parts.first[part], parts.first[part + 1], [&](const GroupRun& run) {
-      std::size_t at = first;
-      while (at < boxes_.size() && boxes_[at].group != run.group) ++at;
-      if (at == boxes_.size())
-        boxes_.push_back({piece, part, run.group, run.begin, run.end, Box(), Vec3::Zero()});
-      boxes_[at].end = run.end;
-      for (std::size_t k = run.begin; k < run.end; ++k) boxes_[at].box.extend(places.place(k));
-    });
+    const std::uint32_t piece = subpieces.piece[subpiece];
+    if (subpieces.of_piece[piece] == subpiece) box_of_[piece] = static_cast<std::uint32_t>(first);
+    layout_->for_each_run(
+        subpieces.first[subpiece], subpieces.first[subpiece + 1], [&](const GroupRun& run) {
+          std::size_t at = first;
+          while (at < boxes_.size() && boxes_[at].group != run.group) ++at;
+          if (at == boxes_.size())
+            boxes_.push_back({piece, subpiece, run.group, run.begin, run.end, Box(), Vec3::Zero()});
+          boxes_[at].end = run.end;
+          for (std::size_t k = run.begin; k < run.end; ++k) boxes_[at].box.extend(places.place(k));
+        });
   }
   const double range = second_neighbor_range * body_->material.pair.r;
   for (PieceBox& one : boxes_)
@@ -194,7 +195,8 @@ double GroupLimits<Real>::fastest_of(const PieceBox& one, const Units& units,
 template <class Real>
 void GroupLimits<Real>::bound(const Units& units, const GroupStep& by,
                               const std::function<bool(std::size_t)>& meets,
-                              const kernel::Parts<Real>& parts, std::span<kernel::Totals> totals) {
+                              const kernel::Subpieces<Real>& subpieces,
+                              std::span<kernel::Totals> totals) {
   std::vector<GroupMotion> moving = motions_->now();
   std::vector<Curvature> curvature(moving.size());
   std::vector<double> speed2(moving.size());
@@ -217,7 +219,7 @@ void GroupLimits<Real>::bound(const Units& units, const GroupStep& by,
       const auto g = static_cast<std::size_t>(one.group);
       const bool near = working[one.piece] != 0 || meets(one.piece);
       const TangentMotion local = motion_at((*shapes_)[g], moving[g], one.box.center());
-      const auto& field = parts.motions[one.part];
+      const auto& field = subpieces.motions[one.subpiece];
       fastest[k] = near ? fastest_of(one, units, moving[g], field)
                         : fastest_in(one.box, units, local, curvature[g], field_of(field));
       rates_[k] = near || everywhere ? strain_rate(one.around, local, curvature[g]) : 0;
@@ -229,8 +231,8 @@ void GroupLimits<Real>::bound(const Units& units, const GroupStep& by,
     double rate = 0;
     for (; k < boxes_.size() && boxes_[k].piece == piece; ++k) {
       rate = std::max(rate, rates_[k]);
-      Real& of_part = parts.fastest[boxes_[k].part];
-      of_part = std::max(of_part, static_cast<Real>(fastest[k] * (1 + 1e-6)));
+      Real& of_subpiece = subpieces.fastest[boxes_[k].subpiece];
+      of_subpiece = std::max(of_subpiece, static_cast<Real>(fastest[k] * (1 + 1e-6)));
       totals[piece].speed2 =
           std::max(totals[piece].speed2, speed2[static_cast<std::size_t>(boxes_[k].group)]);
     }

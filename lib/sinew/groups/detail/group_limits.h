@@ -3,7 +3,7 @@
 // their particles, and from bounds of second derivatives. What neighbor lists need to know of
 // groups follows, and when forces act within them that they do not know of.
 //
-//     limits.bound(units, by, meets, parts, totals);  // after a step
+//     limits.bound(units, by, meets, subpieces, totals);  // after a step
 //     limits.check_stretch();
 #pragma once
 
@@ -38,7 +38,7 @@ class GroupLimits {
   /// Raises the speeds in the totals of pieces to those of grouped particles in the step.
   /// `meets`: of a piece, whether particles of others are near.
   void bound(const Units& units, const GroupStep& by, const std::function<bool(std::size_t)>& meets,
-             const kernel::Parts<Real>& parts, std::span<kernel::Totals> totals);
+             const kernel::Subpieces<Real>& subpieces, std::span<kernel::Totals> totals);
   /// Throws Error (unstable) where a group is squeezed so much that more particles than the layers
   /// take for neighbors would exert forces on each other, or stretched so much that fewer would.
   void check_stretch();
@@ -50,9 +50,9 @@ class GroupLimits {
   const std::vector<double>& strains() const { return strains_; }
 
  private:
-  /// Box around the places in the group of its particles in a part of a piece.
+  /// Box around the places in the group of its particles in a subpiece.
   struct PieceBox {
-    std::uint32_t piece, part;
+    std::uint32_t piece, subpiece;
     std::int32_t group;
     std::uint32_t begin, end;  ///< places among which they are
     Box box;

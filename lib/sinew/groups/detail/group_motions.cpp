@@ -234,7 +234,7 @@ void GroupMotions<Real>::add_rims(Pulls& pulls) const {
 template <class Real>
 void GroupMotions<Real>::add_bones(const kernel::Step<Real>& step, const Units& units,
                                    Pulls& pulls) {
-  if (!sample_.is_held()) sample_.hold(step.holds);
+  if (!sample_.is_bound()) sample_.bind(step.bindings);
   const std::vector<PulledRun>& runs = sample_.runs();
   std::vector<kernel::PullSums> found(runs.size());
   parallel_for(runs.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -335,8 +335,8 @@ void GroupMotions<Real>::advance() {
 }
 
 template <class Real>
-void GroupMotions<Real>::add_held(std::span<const std::int32_t> cell, const Units& units,
-                                  std::span<HeldCell> held) const {
+void GroupMotions<Real>::add_constrained(std::span<const std::int32_t> cell, const Units& units,
+                                         std::span<ConstrainedCell> constrained) const {
   const double force = units.length / (units.time * units.time);
   const auto& places = layout_->places();
   for (const GroupRun& run : layout_->rim()) {
@@ -346,8 +346,8 @@ void GroupMotions<Real>::add_held(std::span<const std::int32_t> cell, const Unit
       const Vec3 own(static_cast<double>(acceleration_[0][row]),
                      static_cast<double>(acceleration_[1][row]),
                      static_cast<double>(acceleration_[2][row]));
-      HeldCell& there =
-          held[static_cast<std::size_t>(cell[static_cast<std::size_t>(places.id[k])])];
+      ConstrainedCell& there =
+          constrained[static_cast<std::size_t>(cell[static_cast<std::size_t>(places.id[k])])];
       there.squares += (force * own - value_at(moved, places.place(k))).squaredNorm();
       there.count += 1;
     }

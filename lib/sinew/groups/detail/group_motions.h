@@ -55,8 +55,8 @@ class GroupMotions {
            const GroupStep& by);
   void advance();
 
-  void add_held(std::span<const std::int32_t> cell, const Units& units,
-                std::span<HeldCell> held) const;
+  void add_constrained(std::span<const std::int32_t> cell, const Units& units,
+                       std::span<ConstrainedCell> constrained) const;
   void constrain(Forces& forces, const std::vector<std::uint32_t>& caller,
                  const Vec3& gravity) const;
   void save(SimulationState& state) const;

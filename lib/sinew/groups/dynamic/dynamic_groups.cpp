@@ -22,20 +22,23 @@ constexpr int moments_ahead = 16;
 // Groups are worth the work of making them if no joint of theirs moves for so many checks.
 constexpr double checks_ahead = 16;
 constexpr int max_rounds = 4;  // of what is grown and found not to fit
-// Share of how far off the worst is, squared, from which on others leave with it.
-constexpr double leaving_share = 0.25;
-constexpr double free_share = 0.5;  // of the tolerance, for what was free
-constexpr double torn_share = 0.5;  // of the tolerance: what leaves where something must
+// Fraction of how far off the worst is, squared, from which on others leave with it.
+constexpr double leaving_fraction = 0.25;
+constexpr double free_fraction = 0.5;  // of the tolerance, for what was free
+constexpr double torn_fraction = 0.5;  // of the tolerance: what leaves where something must
 // Stiffness against moving a particle while its neighbors stay, in stiffnesses of a bond.
 constexpr double stiffness_of_place = 4;
 
-/// Units of one part that move by one cubic.
+/// Units of one assembly that move by one cubic.
 class CubicGrowth {
  public:
-  /// `share`: of a unit, of what it may be off a motion.
+  /// `relative_residual`: of a unit, of what it may be off a motion.
   CubicGrowth(const std::vector<CubicSums>& sums, double least,
-              std::function<double(std::size_t, const CubicMotion&)> share)
-      : sums_(sums), least_(least), share_of_(std::move(share)), taken_(sums.size(), 0) {}
+              std::function<double(std::size_t, const CubicMotion&)> relative_residual)
+      : sums_(sums),
+        least_(least),
+        relative_residual_of_(std::move(relative_residual)),
+        taken_(sums.size(), 0) {}
 
   /// Whether those for which is_one(unit) holds move by one.
   template <class IsOne>
@@ -51,7 +54,7 @@ class CubicGrowth {
     choose(is_one);
     if (!shrink()) return grown;
     for (std::size_t n = 0; n < in_.size(); ++n)
-      if (taken_[n] == 0 && share_[n] < 1) in_[n] = 1;
+      if (taken_[n] == 0 && relative_residual_[n] < 1) in_[n] = 1;
     if (!shrink()) return grown;
     for (std::size_t n = 0; n < in_.size(); ++n)
       if (in_[n] != 0) grown.push_back(n), taken_[n] = 1;
@@ -61,7 +64,7 @@ class CubicGrowth {
  private:
   template <class IsOne>
   void choose(const IsOne& is_one) {
-    in_.assign(sums_.size(), 0), share_.assign(sums_.size(), 0);
+    in_.assign(sums_.size(), 0), relative_residual_.assign(sums_.size(), 0);
     for (std::size_t n = 0; n < in_.size(); ++n) in_[n] = taken_[n] == 0 && is_one(n) ? 1 : 0;
   }
   /// Whether there is a motion.
@@ -71,13 +74,14 @@ class CubicGrowth {
       if (in_[n] != 0) all += sums_[n];
     if (all.n < least_) return false;
     const std::optional<CubicMotion> motion = cubic_motion(all);
-    for (std::size_t n = 0; motion && n < in_.size(); ++n) share_[n] = share_of_(n, *motion);
+    for (std::size_t n = 0; motion && n < in_.size(); ++n)
+      relative_residual_[n] = relative_residual_of_(n, *motion);
     return motion.has_value();
   }
   double worst() const {
     double worst = 0;
     for (std::size_t n = 0; n < in_.size(); ++n)
-      if (in_[n] != 0) worst = std::max(worst, share_[n]);
+      if (in_[n] != 0) worst = std::max(worst, relative_residual_[n]);
     return worst;
   }
   /// What moves least so leaves, until all do.
@@ -86,16 +90,16 @@ class CubicGrowth {
       const double most = worst();
       if (most < 1) return true;
       for (std::size_t n = 0; n < in_.size(); ++n)
-        if (share_[n] >= std::max(1.0, leaving_share * most)) in_[n] = 0;
+        if (relative_residual_[n] >= std::max(1.0, leaving_fraction * most)) in_[n] = 0;
     }
     return false;
   }
 
   const std::vector<CubicSums>& sums_;
   double least_;
-  std::function<double(std::size_t, const CubicMotion&)> share_of_;
+  std::function<double(std::size_t, const CubicMotion&)> relative_residual_of_;
   std::vector<std::uint8_t> taken_, in_;
-  std::vector<double> share_;
+  std::vector<double> relative_residual_;
 };
 
 }  // namespace
@@ -105,7 +109,7 @@ DynamicGroups::DynamicGroups(std::shared_ptr<const Body> body, Motion motion, do
     : body_(std::move(body)),
       motion_(std::move(motion)),
       options_(options),
-      max_held_(options.tolerance * body_->material.pair.r * stiffness_of_place *
+      max_constraint_(options.tolerance * body_->material.pair.r * stiffness_of_place *
                 body_->material.stiffness() / mass),
       near_(options_.near ? options_.near : neighbors_of(*body_)),
       cell_(body_->rest.size()) {
@@ -148,21 +152,23 @@ std::vector<bool> DynamicGroups::moving(const GroupingMoment& now, double ahead)
   return moves;
 }
 
-bool DynamicGroups::is_held_above(double share, const HeldCell& cell) const {
-  const double most = share * max_held_;
+bool DynamicGroups::is_constrained_above(double fraction, const ConstrainedCell& cell) const {
+  const double most = fraction * max_constraint_;
   return cell.squares > most * most * cell.count;
 }
 
-/// Returns the share of what a unit may be off, squared, to stay or, where it was free, to join.
-double DynamicGroups::share_of_most(const GroupingMoment& now, bool was_grouped,
-                                    const Residual& off) const {
-  const double most = (was_grouped ? 1 : free_share) * options_.tolerance * body_->material.pair.r;
+/// Returns the fraction of what a unit may be off, squared, to stay or, where it was free, to join.
+double DynamicGroups::relative_residual(const GroupingMoment& now, bool was_grouped,
+                                        const Residual& off) const {
+  const double most =
+      (was_grouped ? 1 : free_fraction) * options_.tolerance * body_->material.pair.r;
   return std::max(off.x, off.v * now.interval * now.interval) / (most * most);
 }
 
-bool DynamicGroups::must_split(const GroupingMoment& now, std::span<const HeldCell> held) const {
-  if (std::any_of(held.begin(), held.end(),
-                  [&](const HeldCell& cell) { return is_held_above(1, cell); }))
+bool DynamicGroups::must_split(const GroupingMoment& now,
+                               std::span<const ConstrainedCell> constrained) const {
+  if (std::any_of(constrained.begin(), constrained.end(),
+                  [&](const ConstrainedCell& cell) { return is_constrained_above(1, cell); }))
     return true;
   const std::vector<bool> moves = moving(now, now.interval);
   for (std::size_t b = 0; b < moves.size(); ++b)
@@ -170,14 +176,15 @@ bool DynamicGroups::must_split(const GroupingMoment& now, std::span<const HeldCe
   return false;
 }
 
-/// 1 for cells that are held too strongly, with those around them, or soon will be.
-std::vector<std::uint8_t> DynamicGroups::torn_around(std::span<const HeldCell> held) const {
+/// 1 for cells that groups constrain too strongly, with those around them, or soon will be.
+std::vector<std::uint8_t> DynamicGroups::torn_around(
+    std::span<const ConstrainedCell> constrained) const {
   std::vector<std::uint8_t> torn(count_, 0);
   const auto& [nx, ny, nz] = cells_along_;
-  for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(held.size()); ++cell) {
-    const HeldCell& at = held[static_cast<std::size_t>(cell)];
-    if (is_held_above(torn_share, at)) torn[static_cast<std::size_t>(cell)] = 1;
-    if (!is_held_above(1, at)) continue;
+  for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(constrained.size()); ++cell) {
+    const ConstrainedCell& at = constrained[static_cast<std::size_t>(cell)];
+    if (is_constrained_above(torn_fraction, at)) torn[static_cast<std::size_t>(cell)] = 1;
+    if (!is_constrained_above(1, at)) continue;
     const std::int32_t x = cell % nx, y = cell / nx % ny, z = cell / (nx * ny);
     for (std::int32_t k = std::max(z - 1, 0); k <= std::min(z + 1, nz - 1); ++k)
       for (std::int32_t j = std::max(y - 1, 0); j <= std::min(y + 1, ny - 1); ++j)
@@ -190,7 +197,7 @@ std::vector<std::uint8_t> DynamicGroups::torn_around(std::span<const HeldCell> h
 /// Grows groups from one unit after another, as long as the next one moves with them.
 void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) const {
   const auto moves_with = [&](const Unit& one, const AffineMap& map) {
-    return share_of_most(now, one.was_grouped(), one.from(map)) < 1;
+    return relative_residual(now, one.was_grouped(), one.from(map)) < 1;
   };
   for (Unit& one : units) one.fits = one.fits && moves_with(one, one.map);
   std::vector<std::vector<std::size_t>> at(count_);
@@ -216,7 +223,7 @@ void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) co
         if (along[axis] + by < 0 || along[axis] + by >= cells_along_[axis]) continue;
         for (const std::size_t u : at[static_cast<std::size_t>(cell + by * steps[axis])]) {
           Unit& other = units[u];
-          if (other.group >= 0 || !other.fits || other.part != units[seed].part) continue;
+          if (other.group >= 0 || !other.fits || other.assembly != units[seed].assembly) continue;
           if (!moves_with(other, map)) continue;
           other.group = next;
           members.push_back(u);
@@ -239,20 +246,20 @@ void DynamicGroups::grow(const GroupingMoment& now, std::vector<Unit>& units) co
   }
 }
 
-/// Groups units of each part that move by cubics: those of a group before, or of all of its groups,
-/// as far as they still do, and what moves with them; then what is left.
+/// Groups units of each assembly that move by cubics: those of a group before, or of all of its
+/// groups, as far as they still do, and what moves with them; then what is left.
 void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
-  std::map<int, std::vector<std::size_t>> parts;
+  std::map<int, std::vector<std::size_t>> assemblies;
   for (std::size_t u = 0; u < units.all().size(); ++u)
-    if (units.all()[u].fits) parts[units.all()[u].part].push_back(u);
+    if (units.all()[u].fits) assemblies[units.all()[u].assembly].push_back(u);
   std::int32_t next = 0;
-  for (const auto& part : parts) {
-    const std::vector<std::size_t>& of = part.second;
+  for (const auto& assembly : assemblies) {
+    const std::vector<std::size_t>& of = assembly.second;
     const std::vector<CubicSums> sums = units.cubic_sums(of);
     const auto unit = [&](std::size_t n) -> Unit& { return units.all()[of[n]]; };
     const auto least = static_cast<double>(options_.sizes.min_cubic);
     CubicGrowth growth(sums, least, [&](std::size_t n, const CubicMotion& motion) {
-      return share_of_most(now, unit(n).was_grouped(), residual(sums[n], motion));
+      return relative_residual(now, unit(n).was_grouped(), residual(sums[n], motion));
     });
     std::set<std::int32_t> before;
     for (std::size_t n = 0; n < of.size(); ++n) before.insert(unit(n).was_in);
@@ -269,16 +276,16 @@ void DynamicGroups::bend(const GroupingMoment& now, MovingUnits& units) const {
   }
 }
 
-/// Whether so many free particles follow a part that groups may be worth making anew.
+/// Whether so many free particles follow an assembly that groups may be worth making anew.
 bool DynamicGroups::may_join(const GroupingMoment& now, std::size_t enough) const {
   const std::vector<bool> moves = moving(now, checks_ahead * now.interval);
   const GroupSizes& sizes = options_.sizes;
-  const BoneParts parts(*body_, moves, sizes.cubic_distance.value_or(sizes.joint_distance),
-                        sizes.kept_free);
+  const BoneAssemblies assemblies(
+      *body_, moves, sizes.cubic_distance.value_or(sizes.joint_distance), sizes.kept_free);
   std::vector<std::size_t> found((cell_.size() + particles_per_count - 1) / particles_per_count);
   parallel_for(cell_.size(), particles_per_count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (body_->grouping->group[i] < 0 && parts.of(i) != BoneParts::none)
+      if (body_->grouping->group[i] < 0 && assemblies.of(i) != BoneAssemblies::none)
         ++found[begin / particles_per_count];
   });
   return std::accumulate(found.begin(), found.end(), std::size_t{0}) >= enough;
@@ -288,12 +295,12 @@ bool DynamicGroups::may_join(const GroupingMoment& now, std::size_t enough) cons
 void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
                                std::vector<std::int32_t>& group) const {
   const GroupSizes& sizes = options_.sizes;
-  const BoneParts parts(*body_, asked.moves, cubic ? *sizes.cubic_distance : sizes.joint_distance,
-                        sizes.kept_free);
-  MovingUnits units(*body_, cell_, parts, group, asked.particles);
+  const BoneAssemblies assemblies(
+      *body_, asked.moves, cubic ? *sizes.cubic_distance : sizes.joint_distance, sizes.kept_free);
+  MovingUnits units(*body_, cell_, assemblies, group, asked.particles);
   for (Unit& one : units.all())
     one.fits =
-        asked.torn[static_cast<std::size_t>(one.cell)] == 0 && !asked.bend.contains(one.part);
+        asked.torn[static_cast<std::size_t>(one.cell)] == 0 && !asked.bend.contains(one.assembly);
   if (cubic)
     bend(asked.now, units);
   else
@@ -305,13 +312,14 @@ void DynamicGroups::add_groups(Asked& asked, bool cubic, std::int32_t first,
   if (!cubic) return;
   free_sheets(*body_, group);
   for (std::size_t u = 0; u < units.all().size(); ++u)
-    if (group[units.members(u).front()] >= 0) asked.bend.insert(units.all()[u].part);
+    if (group[units.members(u).front()] >= 0) asked.bend.insert(units.all()[u].assembly);
 }
 
-NewGroups DynamicGroups::regroup(const GroupingMoment& now, std::span<const HeldCell> held,
+NewGroups DynamicGroups::regroup(const GroupingMoment& now,
+                                 std::span<const ConstrainedCell> constrained,
                                  const Particles& particles) const {
   const std::vector<bool> moves = moving(now, checks_ahead * now.interval);
-  const std::vector<std::uint8_t> torn = torn_around(held);
+  const std::vector<std::uint8_t> torn = torn_around(constrained);
   NewGroups made{std::vector<std::int32_t>(cell_.size(), -1), now.still_since};
   Asked asked{now, moves, torn, particles, {}};
   if (options_.sizes.cubic_distance) add_groups(asked, true, 0, made.group);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups that change while a body moves. It is divided into cubic cells; those that move affinely
-// with their neighbors, or by one cubic with their part of the body, join a group, those that
-// forces pull out of its motion, or a joint that begins to move, leave it. Rates are judged by what
-// they come to until the next check.
+// with their neighbors, or by one cubic with all that follows their assembly of bones, join a
+// group, those that forces pull out of its motion, or a joint that begins to move, leave it. Rates
+// are judged by what they come to until the next check.
 //
 //     DynamicGroups dynamic(body, motion, options);
-//     if (dynamic.must_split(now, held)) next = dynamic.regroup(now, held, particles);
+//     if (dynamic.must_split(now, constrained)) next = dynamic.regroup(now, constrained,
+//     particles);
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@
 #include <sinew/body/grouping.h>
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/particles.h>
-#include <sinew/groups/bone_parts.h>
+#include <sinew/groups/bone_assemblies.h>
 #include <sinew/groups/dynamic/moving_units.h>
 #include <sinew/groups/make_grouping.h>
 
@@ -47,12 +48,13 @@ class DynamicGroups {
   const std::vector<std::int32_t>& cells() const { return cell_; }
   std::size_t cell_count() const { return count_; }
 
-  /// Whether a cell is held too strongly, or a joint that was still moves until the next check.
-  bool must_split(const GroupingMoment& now, std::span<const HeldCell> held) const;
+  /// Whether groups constrain a cell too strongly, or a joint that was still moves until the next
+  /// check.
+  bool must_split(const GroupingMoment& now, std::span<const ConstrainedCell> constrained) const;
   /// Whether at least so many particles are free that might join.
   bool may_join(const GroupingMoment& now, std::size_t enough) const;
   /// `particles`: at the moment, in any order.
-  NewGroups regroup(const GroupingMoment& now, std::span<const HeldCell> held,
+  NewGroups regroup(const GroupingMoment& now, std::span<const ConstrainedCell> constrained,
                     const Particles& particles) const;
 
  private:
@@ -62,13 +64,13 @@ class DynamicGroups {
     const std::vector<bool>& moves;         ///< of each bone, its joint with its parent
     const std::vector<std::uint8_t>& torn;  ///< by cell: nothing of it joins
     const Particles& particles;
-    std::set<int> bend;  ///< parts with cubic groups, which have no affine ones
+    std::set<int> bend;  ///< assemblies with cubic groups, which have no affine ones
   };
 
-  bool is_held_above(double share, const HeldCell& cell) const;
-  double share_of_most(const GroupingMoment& now, bool was_grouped, const Residual& off) const;
+  bool is_constrained_above(double fraction, const ConstrainedCell& cell) const;
+  double relative_residual(const GroupingMoment& now, bool was_grouped, const Residual& off) const;
   std::vector<bool> moving(const GroupingMoment& now, double ahead) const;
-  std::vector<std::uint8_t> torn_around(std::span<const HeldCell> held) const;
+  std::vector<std::uint8_t> torn_around(std::span<const ConstrainedCell> constrained) const;
   void grow(const GroupingMoment& now, std::vector<Unit>& units) const;
   void bend(const GroupingMoment& now, MovingUnits& units) const;
   void add_groups(Asked& asked, bool cubic, std::int32_t first,
@@ -77,7 +79,7 @@ class DynamicGroups {
   std::shared_ptr<const Body> body_;
   Motion motion_;
   DynamicOptions options_;
-  double max_held_;  ///< m/s^2
+  double max_constraint_;  ///< m/s^2
   SharedNeighbors near_;
   std::vector<std::int32_t> cell_;
   std::array<std::int32_t, 3> cells_along_{};

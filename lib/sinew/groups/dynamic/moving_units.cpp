@@ -43,28 +43,28 @@ Residual Unit::from(const AffineMap& other) const {
 }
 
 MovingUnits::MovingUnits(const Body& body, std::span<const std::int32_t> cell,
-                         const BoneParts& parts, std::span<const std::int32_t> group,
+                         const BoneAssemblies& assemblies, std::span<const std::int32_t> group,
                          const Particles& particles)
     : body_(body), particles_(particles), place_(particles.size()) {
   for (std::uint32_t k = 0; k < place_.size(); ++k)
     place_[static_cast<std::size_t>(particles.id[k])] = k;
-  find(cell, parts, group);
+  find(cell, assemblies, group);
   parallel_for(units_.size(), units_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t u = begin; u < end; ++u) measure(units_[u], members(u));
   });
 }
 
-void MovingUnits::find(std::span<const std::int32_t> cell, const BoneParts& parts,
+void MovingUnits::find(std::span<const std::int32_t> cell, const BoneAssemblies& assemblies,
                        std::span<const std::int32_t> group) {
   std::vector<std::int64_t> key(cell.size(), -1);
-  // What no bone holds is a part as well.
+  // What is bound to no bone counts as one assembly as well.
   const auto bones = static_cast<int>(body_.skeleton.size());
   const std::int64_t of_cell = bones + 1;
   parallel_for(key.size(), particles_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (group[i] >= 0) continue;
-      if (const int part = parts.of(i); part != BoneParts::none)
-        key[i] = cell[i] * of_cell + (part == BoneParts::without_bones ? bones : part);
+      if (const int assembly = assemblies.of(i); assembly != BoneAssemblies::none)
+        key[i] = cell[i] * of_cell + (assembly == BoneAssemblies::without_bones ? bones : assembly);
     }
   });
   std::vector<std::int64_t> keys;
@@ -75,7 +75,7 @@ void MovingUnits::find(std::span<const std::int32_t> cell, const BoneParts& part
   units_.resize(keys.size());
   for (std::size_t u = 0; u < keys.size(); ++u) {
     units_[u].cell = static_cast<std::int32_t>(keys[u] / of_cell);
-    units_[u].part = static_cast<int>(keys[u] % of_cell);
+    units_[u].assembly = static_cast<int>(keys[u] % of_cell);
   }
   std::vector<std::int32_t> unit(key.size(), -1);
   parallel_for(key.size(), particles_at_a_time, [&](std::size_t begin, std::size_t end) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What may join groups: units, the particles of one cell of the body that follow one part of its
-// skeleton; and how they move.
+// What may join groups: units, the particles of one cell of the body that follow one assembly of
+// its skeleton; and how they move.
 //
-//     const MovingUnits units(body, cells, parts, group, particles);
+//     const MovingUnits units(body, cells, assemblies, group, particles);
 //     const AffineMap& map = units.all()[u].map;
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <sinew/core/particles.h>
-#include <sinew/groups/bone_parts.h>
+#include <sinew/groups/bone_assemblies.h>
 #include <sinew/groups/cubic/cubic_fits.h>
 
 namespace sinew {
@@ -37,7 +37,7 @@ struct AffineSums {
 
 struct Unit {
   std::int32_t cell = 0;
-  int part = -1;
+  int assembly = -1;
   std::int32_t group = -1;   ///< that it joins
   std::int32_t was_in = -1;  ///< group of all of its particles; -1: none
   bool fits = true;
@@ -52,10 +52,11 @@ struct Unit {
 
 class MovingUnits {
  public:
-  /// In the order of their cells and parts. `cell`: of each particle, by id; `group`: what is in
-  /// one is in no unit. `particles`: at the moment, in any order.
-  MovingUnits(const Body& body, std::span<const std::int32_t> cell, const BoneParts& parts,
-              std::span<const std::int32_t> group, const Particles& particles);
+  /// In the order of their cells and assemblies. `cell`: of each particle, by id; `group`: what is
+  /// in one is in no unit. `particles`: at the moment, in any order.
+  MovingUnits(const Body& body, std::span<const std::int32_t> cell,
+              const BoneAssemblies& assemblies, std::span<const std::int32_t> group,
+              const Particles& particles);
 
   std::vector<Unit>& all() { return units_; }
   /// The ids of a unit's particles, ascending.
@@ -66,7 +67,7 @@ class MovingUnits {
   std::vector<CubicSums> cubic_sums(std::span<const std::size_t> units) const;
 
  private:
-  void find(std::span<const std::int32_t> cell, const BoneParts& parts,
+  void find(std::span<const std::int32_t> cell, const BoneAssemblies& assemblies,
             std::span<const std::int32_t> group);
   void measure(Unit& unit, std::span<const std::uint32_t> members) const;
 

@@ -9,13 +9,13 @@ DynamicGroups::DynamicGroups(std::shared_ptr<const Body> body, Motion, double,
   check_groupable(*body);  // throws
 }
 
-bool DynamicGroups::must_split(const GroupingMoment&, std::span<const HeldCell>) const {
+bool DynamicGroups::must_split(const GroupingMoment&, std::span<const ConstrainedCell>) const {
   return false;
 }
 
 bool DynamicGroups::may_join(const GroupingMoment&, std::size_t) const { return false; }
 
-NewGroups DynamicGroups::regroup(const GroupingMoment&, std::span<const HeldCell>,
+NewGroups DynamicGroups::regroup(const GroupingMoment&, std::span<const ConstrainedCell>,
                                  const Particles&) const {
   return {};
 }

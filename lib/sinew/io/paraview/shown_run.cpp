@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t min_samples = 2, max_samples = 12;
 constexpr std::size_t max_particles_read = 4'000'000;  // in some seconds
-constexpr double outliers = 0.01;  ///< share of the values beyond each end of the color scale
+constexpr double outliers = 0.01;  ///< fraction of the values beyond each end of the color scale
 constexpr double rounding = 1e-9;  ///< rounding: the body is at rest
 
 /// Frames spread over the run, the first and the last included; fewer of large ones.
@@ -57,8 +57,9 @@ std::vector<double> magnitudes(const Column& column) {
       column.values);
 }
 
-double at_share(std::vector<double>& values, double share) {
-  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+double quantile(std::vector<double>& values, double fraction) {
+  const auto place =
+      static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1) + 0.5);
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
                    values.end());
   return values[place];
@@ -100,10 +101,10 @@ class ColorRange {
   void add(const Column& column, double time, double& moment) {
     std::vector<double> values = magnitudes(column);
     if (values.empty()) return;
-    const double high = at_share(values, 1 - outliers);
+    const double high = quantile(values, 1 - outliers);
     if (high > high_) moment = time;
     high_ = std::max(high_, high);
-    low_ = std::min(low_, at_share(values, outliers));
+    low_ = std::min(low_, quantile(values, outliers));
   }
 
   /// Numbers of an array of which all are alike are not known to grow.
@@ -142,7 +143,7 @@ void read_supports(ShownRun& run) {
       run.hardest = std::max(run.hardest, force.norm());
   }
   if (!(run.hardest > 0)) return;
-  const double scale = arrow_share * run.size() / run.hardest;
+  const double scale = arrow_fraction * run.size() / run.hardest;
   for (const Dataset& frame : frames) {
     Points tips = vectors(frame.point_columns, "force");
     for (std::size_t i = 0; i < tips.size(); ++i) tips[i] = frame.points[i] + scale * tips[i];

@@ -14,7 +14,7 @@
 namespace sinew {
 
 /// Length of the longest arrow in the size of the body.
-constexpr double arrow_share = 0.2;
+constexpr double arrow_fraction = 0.2;
 
 /// What a user may choose.
 struct ViewOptions {

@@ -23,8 +23,8 @@ const Color skin = {0.55, 0.71, 0.86}, edge = {0.20, 0.33, 0.47}, bone = {0.98, 
 const Color obstacle = {0.62, 0.60, 0.58}, force = {0.86, 0.30, 0.10};
 /// Colors of the axes x, y, z of a bone.
 const Color axes = {0.88, 0.15, 0.17, 0.13, 0.62, 0.24, 0.13, 0.36, 0.92};
-/// Share of the range, red, green, blue: lightness increases with the value, and the lowest color
-/// still shows the spheres' shading.
+/// Fraction of the range, red, green, blue: lightness increases with the value, and the lowest
+/// color still shows the spheres' shading.
 constexpr std::array<std::array<double, 4>, 5> colors = {{{0.0, 0.27, 0.33, 0.62},
                                                           {0.25, 0.17, 0.52, 0.70},
                                                           {0.5, 0.25, 0.71, 0.60},
@@ -118,8 +118,8 @@ class Show {
   StateProxy& color_table() {
     const auto [low, high] = run_.range;
     std::vector<double> points;
-    for (const auto& [share, red, green, blue] : colors)
-      points.insert(points.end(), {low + share * (high - low), red, green, blue});
+    for (const auto& [fraction, red, green, blue] : colors)
+      points.insert(points.end(), {low + fraction * (high - low), red, green, blue});
     table_ =
         &state_
              .add("lookup_tables", "PVLookupTable", "lookup_tables", run_.array + ".PVLookupTable")

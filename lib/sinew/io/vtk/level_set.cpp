@@ -48,7 +48,7 @@ class Padded {
   double value(const Sample& at) const { return sign_ * image_.values[index(at)]; }
   bool inside(const Sample& at) const { return contains(at) && value(at) > 0; }
 
-  /// Returns the share of the way to the surface, from an inside sample to its neighbor outside.
+  /// Returns the fraction of the way to the surface, from an inside sample to its neighbor outside.
   double crossing(const Sample& in, const Sample& out) const {
     return contains(out) ? value(in) / (value(in) - value(out)) : 0;
   }

@@ -110,7 +110,7 @@ std::vector<int> swept(std::span<const Box> boxes) {
 
 /// Calls visit(box, around) for each box with those that contain it, the smallest first.
 template <class Visit>
-void for_each_held(std::span<const Box> boxes, Visit&& visit) {
+void for_each_contained(std::span<const Box> boxes, Visit&& visit) {
   std::vector<int> open, around;
   for (const int i : swept(boxes)) {
     std::erase_if(open, [&](int other) { return boxes[other].max().x() < boxes[i].min().x(); });
@@ -158,7 +158,7 @@ std::vector<int> next_outer(std::span<const Box> boxes, const std::function<Shel
     return *winding[i];
   };
   std::vector<int> outer(boxes.size(), -1);
-  for_each_held(boxes, [&](int i, const std::vector<int>& around) {
+  for_each_contained(boxes, [&](int i, const std::vector<int>& around) {
     const Points samples = samples_of(shell_of(i));
     const auto found = std::find_if(around.begin(), around.end(), [&](int candidate) {
       return encloses(winding_of(candidate), samples);

@@ -181,13 +181,13 @@ ThinSurface thin_surface(const Triangles& surface, std::size_t most) {
   return out;
 }
 
-Playback plan_playback(const RestBody& rest, std::size_t frames, double share) {
+Playback plan_playback(const RestBody& rest, std::size_t frames, double fraction) {
   Playback playback;
   playback.run_frames = frames;
   playback.run_particles = rest.particles();
   playback.run_points = rest.surface.points.size();
   const auto bytes_of = [&](std::size_t all) {
-    return static_cast<std::size_t>(share * static_cast<double>(all));
+    return static_cast<std::size_t>(fraction * static_cast<double>(all));
   };
   plan_particles(playback, rest, bytes_of(particle_bytes));
   playback.balls = {{playback.particles.size(), shown_radius(playback, rest.radius)}};

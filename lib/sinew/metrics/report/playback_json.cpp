@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double outside = 1e-3;  // share of a field's values at either end that the range excludes
+constexpr double outside =
+    1e-3;  // fraction of a field's values at either end that the range excludes
 
 /// The numbers' bytes, lowest first.
 template <class Number>
@@ -34,8 +35,8 @@ Cube cube_of(const Playback& playback) {
 
 void quantize(std::vector<std::uint16_t>& out, const std::vector<float>& places, const Cube& cube) {
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double share = (places[i] - cube.low[static_cast<int>(i % 3)]) / cube.edge;
-    out.push_back(static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0, 1.0))));
+    const double fraction = (places[i] - cube.low[static_cast<int>(i % 3)]) / cube.edge;
+    out.push_back(static_cast<std::uint16_t>(std::lround(65535 * std::clamp(fraction, 0.0, 1.0))));
   }
 }
 
@@ -71,9 +72,9 @@ std::vector<Range> range_of(const Playback& playback, std::size_t field, std::si
     for (std::size_t i = first; i < std::min(first + count, frame.values[field].size()); ++i)
       if (const float value = frame.values[field][i]; std::isfinite(value)) all.push_back(value);
   if (all.empty()) return {};
-  const auto at = [&](double share) {
+  const auto at = [&](double fraction) {
     const auto place =
-        all.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(all.size() - 1));
+        all.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(all.size() - 1));
     std::nth_element(all.begin(), place, all.end());
     return *place;
   };
@@ -101,8 +102,9 @@ std::string levels_of(const Playback& playback, std::size_t field, Range range) 
   const double width = range.high > range.low ? double(range.high) - range.low : 1;
   for (const PlaybackFrame& frame : playback.frames)
     for (const float value : frame.values[field]) {
-      const double share = std::clamp((double(value) - range.low) / width, 0.0, 1.0);
-      all.push_back(std::isnan(value) ? 255 : static_cast<std::uint8_t>(std::lround(254 * share)));
+      const double fraction = std::clamp((double(value) - range.low) / width, 0.0, 1.0);
+      all.push_back(std::isnan(value) ? 255
+                                      : static_cast<std::uint8_t>(std::lround(254 * fraction)));
     }
   return base64_of(all);
 }

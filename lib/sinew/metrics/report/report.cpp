@@ -52,13 +52,13 @@ PageData drawn_data(const ReportInput& input) {
 
 /// What the 3D view leaves out of the run.
 std::string thinned_text(const Playback& playback) {
-  const auto share = [](std::size_t kept, std::size_t all, const char* what) {
+  const auto fraction = [](std::size_t kept, std::size_t all, const char* what) {
     return kept == all ? "all " + std::to_string(all) + what
                        : std::to_string(kept) + " of " + std::to_string(all) + what;
   };
-  return "Shown: " + share(playback.particles.size(), playback.run_particles, " particles, ") +
-         share(playback.frames.size(), playback.run_frames, " frames, ") +
-         share(playback.points.size(), playback.run_points, " points of the surface.");
+  return "Shown: " + fraction(playback.particles.size(), playback.run_particles, " particles, ") +
+         fraction(playback.frames.size(), playback.run_frames, " frames, ") +
+         fraction(playback.points.size(), playback.run_points, " points of the surface.");
 }
 
 std::string playback_section(const ReportInput& input) {

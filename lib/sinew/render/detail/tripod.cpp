@@ -27,10 +27,10 @@ void draw_stroke(Image& image, const Vec2& a, const Vec2& b, double radius, cons
   for (int y = std::max(0, low.y()); y <= std::min(high.y(), image.height - 1); ++y)
     for (int x = std::max(0, low.x()); x <= std::min(high.x(), image.width - 1); ++x) {
       const double away = distance_to_segment(Vec2(x, y), a, b);
-      const double share = std::clamp(radius + 0.5 - away, 0.0, 1.0);
+      const double coverage = std::clamp(radius + 0.5 - away, 0.0, 1.0);
       std::uint8_t* pixel = image.at(x, y);
       for (int c = 0; c < 3; ++c)
-        pixel[c] = static_cast<std::uint8_t>(share * color[c] + (1 - share) * pixel[c] + 0.5);
+        pixel[c] = static_cast<std::uint8_t>(coverage * color[c] + (1 - coverage) * pixel[c] + 0.5);
     }
 }
 

@@ -7,7 +7,7 @@
 namespace sinew {
 namespace {
 
-// A head within this share of the parent's length from its tail is a joint at the tail.
+// A head within this fraction of the parent's length from its tail is a joint at the tail.
 constexpr double near_tail = 0.25;
 constexpr double no_width = 1e-9;  // of a zone: below it, only the distances decide
 
@@ -36,7 +36,7 @@ JointZone zone_above(const Skeleton& skeleton, int bone, double length) {
 
 /// Which of two bones a point belongs to over a zone of `width`: 1 for the one that is nearer by
 /// half of it, 0 for the other.
-double share_of_nearer(double distance, double distance_to_other, double width) {
+double weight_of_nearer(double distance, double distance_to_other, double width) {
   if (std::isinf(distance)) return 0;
   const double nearer = distance_to_other - distance;
   if (!(width > no_width * (distance + 1e-300))) return nearer > 0 ? 1 : nearer < 0 ? 0 : 0.5;
@@ -45,16 +45,16 @@ double share_of_nearer(double distance, double distance_to_other, double width) 
 
 using Distance = std::function<double(int)>;
 
-/// The child's share against its parent alone: 0 on the parent's side of the zone, 1 beyond it.
-double share_of_child(const JointZones& zones, int child, const Vec3& point,
-                      const Distance& distance) {
+/// The child's weight against its parent alone: 0 on the parent's side of the zone, 1 beyond it.
+double weight_of_child(const JointZones& zones, int child, const Vec3& point,
+                       const Distance& distance) {
   const JointZone& zone = zones.above[child];
   if (zone.across_axis)
     return std::clamp(0.5 + (point - zone.place).dot(zone.axis) / zone.length, 0.0, 1.0);
-  return share_of_nearer(distance(child), distance(zones.parent[child]), zone.length);
+  return weight_of_nearer(distance(child), distance(zones.parent[child]), zone.length);
 }
 
-/// How children divide their common share, by their distances; `width` is a factor on their zones.
+/// How children divide their common weight, by their distances; `width` is a factor on their zones.
 std::vector<double> parted(const JointZones& zones, const std::vector<int>& children,
                            const std::vector<double>& distances, double width) {
   std::vector<double> parts(children.size(), 1.0);
@@ -63,7 +63,7 @@ std::vector<double> parted(const JointZones& zones, const std::vector<int>& chil
     for (std::size_t j = 0; j < children.size(); ++j) {
       if (i == j) continue;
       const double length = (zones.above[children[i]].length + zones.above[children[j]].length) / 2;
-      parts[i] *= share_of_nearer(distances[i], distances[j], width * length);
+      parts[i] *= weight_of_nearer(distances[i], distances[j], width * length);
     }
     sum += parts[i];
   }
@@ -81,7 +81,7 @@ void add_children(const JointZones& zones, int parent, const Vec3& point, const 
   const std::vector<double> near = parted(zones, children, distances, 1);
   double of_all = 0;
   for (std::size_t i = 0; i < children.size(); ++i)
-    if (near[i] > 0) of_all += near[i] * share_of_child(zones, children[i], point, distance);
+    if (near[i] > 0) of_all += near[i] * weight_of_child(zones, children[i], point, distance);
   const std::vector<double> parts = parted(zones, children, distances, 1 - of_all);
   for (std::size_t i = 0; i < children.size(); ++i)
     weights.push_back({children[i], of_all * parts[i]});
@@ -89,24 +89,24 @@ void add_children(const JointZones& zones, int parent, const Vec3& point, const 
 
 /// Adds the bones that meet at the joints below `parent`; the first one keeps the remaining weight.
 void add_family(const JointZones& zones, int parent, const Vec3& point, const Distance& distance,
-                std::vector<BoneWeight>& held) {
+                std::vector<BoneWeight>& weights) {
   const std::vector<int>& children = zones.children[parent];
   if (children.empty()) return;
-  const std::size_t before = held.size();
+  const std::size_t before = weights.size();
   if (children.size() == 1)
-    held.push_back({children[0], share_of_child(zones, children[0], point, distance)});
+    weights.push_back({children[0], weight_of_child(zones, children[0], point, distance)});
   else
-    add_children(zones, parent, point, distance, held);
+    add_children(zones, parent, point, distance, weights);
   double of_children = 0;
-  for (std::size_t k = before; k < held.size(); ++k) of_children += held[k].weight;
-  held.push_back({parent, std::max(0.0, 1 - of_children)});
-  const int lead = held.front().bone;
-  held.erase(std::remove_if(held.begin() + static_cast<std::ptrdiff_t>(before), held.end(),
-                            [lead](const BoneWeight& one) { return one.bone == lead; }),
-             held.end());
+  for (std::size_t k = before; k < weights.size(); ++k) of_children += weights[k].weight;
+  weights.push_back({parent, std::max(0.0, 1 - of_children)});
+  const int lead = weights.front().bone;
+  weights.erase(std::remove_if(weights.begin() + static_cast<std::ptrdiff_t>(before), weights.end(),
+                               [lead](const BoneWeight& one) { return one.bone == lead; }),
+                weights.end());
   double of_others = 0;
-  for (std::size_t k = before; k < held.size(); ++k) of_others += held[k].weight;
-  held.front().weight *= std::max(0.0, 1 - of_others);
+  for (std::size_t k = before; k < weights.size(); ++k) of_others += weights[k].weight;
+  weights.front().weight *= std::max(0.0, 1 - of_others);
 }
 
 }  // namespace
@@ -141,21 +141,21 @@ JointZones joint_zones(const Skeleton& skeleton, const std::vector<double>& sect
   return zones;
 }
 
-std::vector<BoneWeight> shares_in_zones(const JointZones& zones, int lead, const Vec3& point,
-                                        const Distance& distance) {
-  std::vector<BoneWeight> held;
-  held.reserve(5);  // one allocation for chains of bones
-  held.push_back({lead, 1});
+std::vector<BoneWeight> weights_in_zones(const JointZones& zones, int lead, const Vec3& point,
+                                         const Distance& distance) {
+  std::vector<BoneWeight> weights;
+  weights.reserve(5);  // one allocation for chains of bones
+  weights.push_back({lead, 1});
   if (zones.parent[lead] != no_bone && zones.above[lead].length > 0)
-    add_family(zones, zones.parent[lead], point, distance, held);
-  add_family(zones, lead, point, distance, held);
-  std::erase_if(held, [](const BoneWeight& one) { return one.weight <= 0; });
+    add_family(zones, zones.parent[lead], point, distance, weights);
+  add_family(zones, lead, point, distance, weights);
+  std::erase_if(weights, [](const BoneWeight& one) { return one.weight <= 0; });
   double sum = 0;
-  for (const BoneWeight& one : held) sum += one.weight;
-  for (BoneWeight& one : held) one.weight /= sum;
-  std::stable_sort(held.begin(), held.end(),
+  for (const BoneWeight& one : weights) sum += one.weight;
+  for (BoneWeight& one : weights) one.weight /= sum;
+  std::stable_sort(weights.begin(), weights.end(),
                    [](const BoneWeight& a, const BoneWeight& b) { return a.weight > b.weight; });
-  return held;
+  return weights;
 }
 
 }  // namespace sinew

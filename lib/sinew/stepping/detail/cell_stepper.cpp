@@ -86,11 +86,11 @@ void CellStepper::find_world_forces(const TimedPose& moment) {
   forces_.world = muscle_;
   for (std::size_t i = 0; i < friction_.size(); ++i) forces_.world[i] += friction_[i];
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const HeldParticle particle{{},
-                                particles_.position(i),
-                                particles_.velocity(i),
-                                particles_.radius,
-                                static_cast<std::size_t>(particles_.id[i])};
+    const ParticleState particle{{},
+                                 particles_.position(i),
+                                 particles_.velocity(i),
+                                 particles_.radius,
+                                 static_cast<std::size_t>(particles_.id[i])};
     forces_.world[i] += load_[i];
     const Vec3 weight = mass(i) * stepping_.gravity;
     around_[i] = world_on(particle, mass(i), world, now, forces_.total(i) + weight, stepping_.step,

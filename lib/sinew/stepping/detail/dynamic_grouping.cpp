@@ -47,11 +47,13 @@ GroupingMoment DynamicGrouping::moment(const Now& now) const {
 std::optional<NewGroups> DynamicGrouping::changed(
     const Stepper& stepper, const Now& now,
     const std::function<const Particles&()>& particles) const {
-  const std::vector<HeldCell> held = stepper.held(groups_.cells(), groups_.cell_count());
-  if (groups_.must_split(moment(now), held)) return groups_.regroup(moment(now), held, particles());
+  const std::vector<ConstrainedCell> constrained =
+      stepper.constrained_cells(groups_.cells(), groups_.cell_count());
+  if (groups_.must_split(moment(now), constrained))
+    return groups_.regroup(moment(now), constrained, particles());
   if (now.steps % steps_between_merges == 0 &&
       groups_.may_join(moment(now), worthwhile(body_->rest.size())))
-    return joined(now, held, particles());
+    return joined(now, constrained, particles());
   return std::nullopt;
 }
 
@@ -60,9 +62,10 @@ std::optional<NewGroups> DynamicGrouping::first(const Now& now, const Particles&
 }
 
 /// Where enough particles join.
-std::optional<NewGroups> DynamicGrouping::joined(const Now& now, std::span<const HeldCell> held,
+std::optional<NewGroups> DynamicGrouping::joined(const Now& now,
+                                                 std::span<const ConstrainedCell> constrained,
                                                  const Particles& particles) const {
-  NewGroups made = groups_.regroup(moment(now), held, particles);
+  NewGroups made = groups_.regroup(moment(now), constrained, particles);
   if (count_grouped(made.group) < body_->grouping->grouped() + worthwhile(made.group.size()))
     return std::nullopt;
   return made;

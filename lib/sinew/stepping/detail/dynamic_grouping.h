@@ -48,7 +48,7 @@ class DynamicGrouping {
 
  private:
   GroupingMoment moment(const Now& now) const;
-  std::optional<NewGroups> joined(const Now& now, std::span<const HeldCell> held,
+  std::optional<NewGroups> joined(const Now& now, std::span<const ConstrainedCell> constrained,
                                   const Particles& particles) const;
 
   std::shared_ptr<const Body> body_;

@@ -50,7 +50,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
   groups_.begin(layout_.now, layout_.units());
   const std::size_t blocks = layout_.now.blocks();
   if (body_->material.damping_form != DampingForm::paper && body_->material.damping > 0)
-    share_.assign((blocks + 2) * block, 0);
+    inverse_count_.assign((blocks + 2) * block, 0);
   totals_.resize((blocks + kernel::blocks_per_piece - 1) / kernel::blocks_per_piece);
 }
 
@@ -72,9 +72,9 @@ void ListStepper<Real>::place_bones(const Pose& pose) {
 }
 
 template <class Real>
-kernel::Holds<Real> ListStepper<Real>::holds() const {
-  const auto& [first, slots, held, shares, center] = slots_;
-  return {first.data(), slots.data(), held.data(), shares.data(), bones_.data()};
+kernel::Bindings<Real> ListStepper<Real>::bindings() const {
+  const auto& [first, slots, attachments, weights, center] = slots_;
+  return {first.data(), slots.data(), attachments.data(), weights.data(), bones_.data()};
 }
 
 template <class Real>
@@ -90,14 +90,14 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.id = layout_.padded_id();
   step.live = layout_.now.live();
   step.lists = lists_.arrays();
-  step.parts = lists_.parts();
-  step.holds = holds();
+  step.subpieces = lists_.subpieces();
+  step.bindings = bindings();
   step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
   strain_.put_into(step);
   if constexpr (sizeof(Real) == 8) careful_.resize(layout_.now.blocks() * block);
   step.careful = careful_.data();
-  step.share = share_.empty() ? nullptr : share_.data() + block;
+  step.inverse_count = inverse_count_.empty() ? nullptr : inverse_count_.data() + block;
   step.central = material.damping_form == DampingForm::central;
   step.mass = masses_.empty() ? nullptr : masses_.data();
   step.loads = surroundings_.loads();
@@ -160,7 +160,7 @@ void ListStepper<Real>::find_deformation(const kernel::Step<Real>& now) {
   if (!strain_.empty())
     on_all_pieces([&](std::size_t first, std::size_t last) { kernel_.strain(now, first, last); });
   find_flow(now);
-  if (share_.empty()) return;
+  if (inverse_count_.empty()) return;
   auto counting = now;
   // Within groups, the neighbors of idle blocks remain.
   if (!std::exchange(counted_, true)) counting.grouped = {};
@@ -225,7 +225,7 @@ WorldReactions ListStepper<Real>::reactions() const {
 
 template <class Real>
 StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
-  const auto work = work_.step[share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  const auto work = work_.step[inverse_count_.empty() ? kernel::to_the_mean : kernel::pairwise];
   on_all_pieces(
       [&](std::size_t first, std::size_t last) { surroundings_.run(work, now, first, last); });
   move_groups(now);
@@ -294,13 +294,13 @@ void ListStepper<Real>::follow_units() {
 
 template <class Real>
 void ListStepper<Real>::make_lists() {
-  lists_.make(layout_.now, parts(), bonds_, layout_.units(),
+  lists_.make(layout_.now, subpieces(), bonds_, layout_.units(),
               groups_.seen(layout_.now, layout_.units()));
 }
 
 template <class Real>
-PieceParts ListStepper<Real>::parts() const {
-  return piece_parts(*body_, layout_.id(), block);
+Subpieces ListStepper<Real>::subpieces() const {
+  return subpieces_of(*body_, layout_.id(), block);
 }
 
 /// What keeps its neighbors keeps its order. A second check before the same step, as in a run
@@ -321,7 +321,7 @@ void ListStepper<Real>::sort() {
   VerletLists<Real> before = std::exchange(lists_, lists_.cleared(stepping_.step));
   const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
-  lists_.make_some(layout_.now, parts(), bonds_, layout_.units());
+  lists_.make_some(layout_.now, subpieces(), bonds_, layout_.units());
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   if (sorted > 0.95 * unsorted) {
@@ -393,7 +393,7 @@ Balance ListStepper<Real>::evaluate(const TimedPose& moment, Forces& forces) {
   const auto now = begin(moment, surroundings_.any() ? &of_world : nullptr, true);
   const double newtons =
       mass_ * layout_.units().length / (layout_.units().time * layout_.units().time);
-  const auto work = work_.probe[share_.empty() ? kernel::to_the_mean : kernel::pairwise];
+  const auto work = work_.probe[inverse_count_.empty() ? kernel::to_the_mean : kernel::pairwise];
   const auto probed = [&](const kernel::Step<Real>& job, std::size_t first, std::size_t last) {
     surroundings_.run(work, job, first, last);
   };
@@ -569,11 +569,11 @@ void ListStepper<Real>::regroup() {
 }
 
 template <class Real>
-std::vector<HeldCell> ListStepper<Real>::held(std::span<const std::int32_t> cell,
-                                              std::size_t cells) const {
-  std::vector<HeldCell> held(cells);
-  groups_.add_held(cell, layout_.units(), held);
-  return held;
+std::vector<ConstrainedCell> ListStepper<Real>::constrained_cells(
+    std::span<const std::int32_t> cell, std::size_t cells) const {
+  std::vector<ConstrainedCell> constrained(cells);
+  groups_.add_constrained(cell, layout_.units(), constrained);
+  return constrained;
 }
 
 template class ListStepper<double>;

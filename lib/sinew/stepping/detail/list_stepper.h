@@ -51,7 +51,8 @@ class ListStepper final : public Stepper {
   bool has_groups() const override { return true; }
   void regroup() override;
   void fit_groups() override { groups_.begin(layout_.now, layout_.units()); }
-  std::vector<HeldCell> held(std::span<const std::int32_t> cell, std::size_t cells) const override;
+  std::vector<ConstrainedCell> constrained_cells(std::span<const std::int32_t> cell,
+                                                 std::size_t cells) const override;
 
  private:
   static constexpr int block = BlockState<Real>::block;
@@ -62,7 +63,7 @@ class ListStepper final : public Stepper {
   static constexpr std::size_t pieces_at_a_time = 4;  ///< where some take longer than others
 
   void place_bones(const Pose& pose);
-  kernel::Holds<Real> holds() const;
+  kernel::Bindings<Real> bindings() const;
   kernel::Step<Real> job();
   void on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run);
   void hold(const TimedPose& now);
@@ -80,7 +81,7 @@ class ListStepper final : public Stepper {
   void sort();
   void add_moved();
   void make_lists();
-  PieceParts parts() const;
+  Subpieces subpieces() const;
   void find_slots();
   StepSums sums_of_totals() const;
   Failure failure(const Pose& pose);
@@ -103,7 +104,7 @@ class ListStepper final : public Stepper {
   std::vector<double> moved_;          ///< by pins, by piece, since the lists followed, m
   std::vector<Real> masses_;           ///< over mass_, padded at the end; empty: 1 each
   std::vector<std::uint8_t> careful_;  ///< by vector of particles; see kernel::Step
-  std::vector<Real> share_;            ///< padded; empty unless damping acts pair by pair
+  std::vector<Real> inverse_count_;    ///< padded; empty unless damping acts pair by pair
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step behind positions (velocity Verlet)

@@ -305,7 +305,7 @@ void Surroundings<Real>::act(const kernel::Step<Real>& step, std::size_t piece, 
 template <class Real>
 void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   const Vec3 position = state_->position(k, units_), velocity = state_->velocity(k, units_);
-  const HeldParticle particle{
+  const ParticleState particle{
       {}, position, velocity, body_->material.pair.r, static_cast<std::size_t>(id_[k])};
   Piece& piece = pieces_[k / (kernel::blocks_per_piece * BlockState<Real>::block)];
   const double mass = mass_at(k);

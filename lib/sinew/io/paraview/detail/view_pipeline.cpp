@@ -12,7 +12,7 @@ namespace {
 constexpr double above_upper = 2, every_nth_point = 1, all_points = 0;
 
 constexpr std::size_t max_arrows = 1500;  // more would hide each other
-constexpr double bone_share = 0.009;      // radius of a bone's tube in the size of the body
+constexpr double bone_fraction = 0.009;   // radius of a bone's tube in the size of the body
 
 class Pipeline {
  public:
@@ -100,7 +100,7 @@ class Pipeline {
     return glyph.refer("Source", {&arrow})
         .array("OrientationArray", false, array)
         .array("ScaleArray", false, array)
-        .number("ScaleFactor", largest > 0 ? arrow_share * run_.size() / largest : 0);
+        .number("ScaleFactor", largest > 0 ? arrow_fraction * run_.size() / largest : 0);
   }
 
   StateProxy& force_arrows() {
@@ -136,7 +136,7 @@ class Pipeline {
 
 }  // namespace
 
-double bone_radius(const ShownRun& run) { return bone_share * run.size(); }
+double bone_radius(const ShownRun& run) { return bone_fraction * run.size(); }
 
 ViewPipeline view_pipeline(StateFile& state, const ShownRun& run, const ViewOptions& options) {
   return Pipeline(state, run, options).made();

@@ -26,7 +26,7 @@ std::string image_in(std::string text, const std::filesystem::path& folder) {
 }
 
 /// Between 0 and 1; `other` where it is no number.
-double share_in(Words& words, double other) {
+double fraction_in(Words& words, double other) {
   const double number = number_in(words.next()).value_or(other);
   return std::isfinite(number) ? std::clamp(number, 0.0, 1.0) : other;
 }
@@ -36,9 +36,9 @@ void take_line(std::string_view line, const std::filesystem::path& folder,
   Words words(line);
   const std::string_view keyword = words.next();
   if (keyword == "Kd")
-    for (double& part : material.color) part = share_in(words, part);
-  if (keyword == "d") material.opacity = share_in(words, 1);
-  if (keyword == "Tr") material.opacity = 1 - share_in(words, 0);
+    for (double& part : material.color) part = fraction_in(words, part);
+  if (keyword == "d") material.opacity = fraction_in(words, 1);
+  if (keyword == "Tr") material.opacity = 1 - fraction_in(words, 0);
   if (keyword == "map_Kd") material.image = image_in(rest_of(line, keyword), folder);
 }
 

@@ -39,11 +39,11 @@ PolygonSoup soup_of(const MeshFile& file, Points points) {
 
 PolygonSoup read_binary(const MeshFile& file) {
   const std::size_t triangles = stated_triangles(file.content);
-  const std::size_t held = (file.content.size() - start) / triangle_bytes;
-  if (triangles > held)
+  const std::size_t contained = (file.content.size() - start) / triangle_bytes;
+  if (triangles > contained)
     throw file.broken(0,
                       "the file says " + std::to_string(triangles) + " triangles but holds " +
-                          std::to_string(held),
+                          std::to_string(contained),
                       "it is cut short or no STL: export the mesh again");
   Points points;
   points.reserve(3 * triangles);

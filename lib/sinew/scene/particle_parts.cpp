@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/parts.h>
+#include <sinew/scene/particle_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,9 +67,9 @@ std::string extent_text(const Points& points) {
 }
 
 /// What a part asks for.
-class Parts::Test {
+class ParticleParts::Test {
  public:
-  Test(const Parts& parts, const PartSettings& part, const std::string& path)
+  Test(const ParticleParts& parts, const PartSettings& part, const std::string& path)
       : parts_(parts), part_(part) {
     bone_ = bone_at(parts.settings_, path, parts.body_.skeleton, part.bone);
     if (part.facing) direction_ = part.facing->normalized();
@@ -100,7 +100,7 @@ class Parts::Test {
   }
 
  private:
-  const Parts& parts_;
+  const ParticleParts& parts_;
   const PartSettings& part_;
   int bone_ = no_bone;
   Vec3 direction_ = Vec3::Zero();
@@ -125,11 +125,11 @@ std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& p
   return ids;
 }
 
-Parts::Parts(const Settings& settings, const Body& body, const Triangles& surface,
-             std::span<const std::int32_t> component)
+ParticleParts::ParticleParts(const Settings& settings, const Body& body, const Triangles& surface,
+                             std::span<const std::int32_t> component)
     : settings_(settings), body_(body), surface_(surface), component_(component) {}
 
-const Triangles& Parts::fine_surface(const std::string& path) const {
+const Triangles& ParticleParts::fine_surface(const std::string& path) const {
   if (surface_.faces.empty())
     throw bad_input(settings_.place(path), "a surface without a mesh", "name a part by a region");
   if (fine_.faces.empty()) {
@@ -142,8 +142,8 @@ const Triangles& Parts::fine_surface(const std::string& path) const {
   return fine_;
 }
 
-std::vector<std::uint32_t> Parts::particles(const PartSettings& part,
-                                            const std::string& path) const {
+std::vector<std::uint32_t> ParticleParts::particles(const PartSettings& part,
+                                                    const std::string& path) const {
   const Test test(*this, part, path);
   std::vector<std::uint32_t> found;
   if (part.facing) {
@@ -163,7 +163,7 @@ std::vector<std::uint32_t> Parts::particles(const PartSettings& part,
                   "choose one that reaches into the body, " + extent_text(body_.rest));
 }
 
-Triangles Parts::faces(const PartSettings& part, const std::string& path) const {
+Triangles ParticleParts::faces(const PartSettings& part, const std::string& path) const {
   const Test test(*this, part, path);
   const Triangles& fine = fine_surface(path);
   std::vector<std::array<int, 3>> found;
@@ -186,7 +186,7 @@ bool is_by_direction(PartSettings part) {
 
 }  // namespace
 
-Triangles Parts::pressed_faces(const PartSettings& part, const std::string& path) const {
+Triangles ParticleParts::pressed_faces(const PartSettings& part, const std::string& path) const {
   if (!is_by_direction(part) || surface_.faces.empty()) return faces(part, path);
   const Test test(*this, part, path);
   const Triangles coarse = refined(surface_, longest_pressed_side * body_.material.pair.r);
@@ -264,7 +264,7 @@ class LocalMaterials {
 
 }  // namespace
 
-void set_local_materials(const Settings& settings, const Parts& parts, Body& body) {
+void set_local_materials(const Settings& settings, const ParticleParts& parts, Body& body) {
   if (settings.materials.empty() && body.stiffness.empty()) return;
   LocalMaterials local(settings, body);
   for (std::size_t k = 0; k < settings.materials.size(); ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the parts of the kernel share: 3-vectors over lanes, masks, rigid frames, the arctangent.
+// What all of the kernel works with: 3-vectors over lanes, masks, rigid frames, the arctangent.
 #pragma once
 
 #include <sinew/kernel/kernel.h>
@@ -114,16 +114,17 @@ SINEW_INLINE Triple<L> cross(const Triple<L>& a, const Triple<L>& b) {
 
 /// Weights and leads of a slot's lanes; a bone alone on its block has both equal to 1.
 template <class L>
-struct Shares {
+struct Weights {
   typename L::V weight, lead;
 };
 
 template <class L>
-SINEW_INLINE Shares<L> shares_of(const Holds<typename L::Real>& holds, const Slot& slot, int lane) {
+SINEW_INLINE Weights<L> weights_of(const Bindings<typename L::Real>& bindings, const Slot& slot,
+                                   int lane) {
   constexpr int block = Traits<typename L::Real>::block;
-  if (slot.shares < 0) return {L::all(1), L::all(1)};
+  if (slot.weights < 0) return {L::all(1), L::all(1)};
   const auto* fields =
-      holds.shares + static_cast<std::ptrdiff_t>(slot.shares) * share_fields * block + lane;
+      bindings.weights + static_cast<std::ptrdiff_t>(slot.weights) * weight_fields * block + lane;
   return {L::load(fields + weight * block), L::load(fields + lead * block)};
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which rigid motions of a body nothing holds.
-#include <sinew/analysis/held_motion.h>
+// Which rigid motions of a body nothing restrains.
+#include <gtest/gtest.h>
+
+#include <sinew/analysis/free_motion.h>
 
 #include "support/machine.h"
 
-namespace sinew::held_motion_test {
+namespace sinew::free_motion_test {
 
 using namespace machine;
 
@@ -13,17 +15,17 @@ std::string free_of(const Machine& machine) {
   return free ? free->text() : "held";
 }
 
-TEST(HeldMotion, ABodyWithoutSupportsIsFree) {
+TEST(FreeMotions, ABodyWithoutSupportsIsFree) {
   EXPECT_NE(free_of(Machine()).find("the body can "), std::string::npos);
 }
 
-TEST(HeldMotion, AClampHoldsAll) {
+TEST(FreeMotions, AClampHoldsAll) {
   Machine machine;
   machine.world.supports = {{"clamp", machine.bottom()}};
   EXPECT_EQ(free_of(machine), "held");
 }
 
-TEST(HeldMotion, ARollerLeavesSlidingAndTurning) {
+TEST(FreeMotions, ARollerLeavesSlidingAndTurning) {
   Machine machine;
   machine.world.supports = {{"roller", machine.bottom(), {false, false, true}}};
   EXPECT_NE(free_of(machine), "held");
@@ -34,7 +36,7 @@ TEST(HeldMotion, ARollerLeavesSlidingAndTurning) {
   EXPECT_EQ(free_of(machine), "held");
 }
 
-TEST(HeldMotion, AHingeLeavesTurningAboutIt) {
+TEST(FreeMotions, AHingeLeavesTurningAboutIt) {
   Machine machine;
   machine.world.supports = {{"hinge", ids_where(machine.rest, [&](const Vec3& p) {
                                return p.z() < r && std::abs(p.x() - machine.rest[0].x()) < 0.1 * r;
@@ -42,7 +44,7 @@ TEST(HeldMotion, AHingeLeavesTurningAboutIt) {
   EXPECT_EQ(free_of(machine), "the body can turn about [0, 1, 0]");
 }
 
-TEST(HeldMotion, EachPartMustBeHeld) {
+TEST(FreeMotions, EachPartMustBeRestrained) {
   Machine machine;
   const std::size_t whole = machine.rest.size();
   machine.world.supports = {{"clamp", machine.bottom()}};
@@ -52,7 +54,7 @@ TEST(HeldMotion, EachPartMustBeHeld) {
       << free;
 }
 
-TEST(HeldMotion, BonesHoldAlongTheirSprings) {
+TEST(FreeMotions, BonesHoldAlongTheirSprings) {
   const Settings settings = test::box_scene(25);
   const Points rest = test::fcc_box(5, 5, 25, r);
   Body body = test::make_body(settings, rest);
@@ -62,4 +64,4 @@ TEST(HeldMotion, BonesHoldAlongTheirSprings) {
   EXPECT_NEAR(free_motion(body)->axis.z(), 1, 1e-6);
 }
 
-}  // namespace sinew::held_motion_test
+}  // namespace sinew::free_motion_test

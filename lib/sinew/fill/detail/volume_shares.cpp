@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/fill/detail/shares.h>
+#include <sinew/fill/detail/volume_shares.h>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 constexpr double finer = 1.5;  // radius of the particles over that of the samples
 constexpr int rotations = 24;  // of a cube
 constexpr double samples_per_particle = rotations * finer * finer * finer;
-constexpr double max_scaling = 1.25, min_share = 0.2;
+constexpr double max_scaling = 1.25, min_volume_share = 0.2;
 
 /// An orientation along no plane or row of the lattice.
 Mat3 oblique() {
@@ -62,7 +62,7 @@ struct Sampled {
     for (int axis = 0; axis < 3; ++axis)
       offset[axis][site].fetch_add(std::llround(1e6 * from_it[axis]), std::memory_order_relaxed);
   }
-  double share(std::size_t site) const {
+  double volume_share(std::size_t site) const {
     return static_cast<double>(count[site]) / samples_per_particle;
   }
   /// Integral of the offset over the particle's part, in units of its volume and of the lattice.
@@ -75,11 +75,11 @@ struct Sampled {
 
 /// Moves weight between particles and their neighbors until linear functions are summed exactly: a
 /// part that reaches far out takes from the neighbors behind.
-void balance(const Owners& owners, const Sampled& sampled, std::vector<double>& share) {
-  const std::vector<double> before = share;
-  for (std::size_t i = 0; i < share.size(); ++i) {
+void balance(const Owners& owners, const Sampled& sampled, std::vector<double>& volume_share) {
+  const std::vector<double> before = volume_share;
+  for (std::size_t i = 0; i < volume_share.size(); ++i) {
     if (owners.surrounded(i) || sampled.count[i] == 0) continue;
-    const Vec3 moment = before[i] / sampled.share(i) * sampled.moment(i);
+    const Vec3 moment = before[i] / sampled.volume_share(i) * sampled.moment(i);
     std::vector<std::pair<std::size_t, Vec3>> around;
     Mat3 spread = Mat3::Zero();
     owners.for_each_touching(i, [&](std::size_t j) {
@@ -91,11 +91,11 @@ void balance(const Owners& owners, const Sampled& sampled, std::vector<double>& 
     const Vec3 by = spread.inverse() * moment;
     for (const auto& [j, from] : around) {
       const double moved = by.dot(from);
-      share[i] += moved;
-      share[j] -= moved;
+      volume_share[i] += moved;
+      volume_share[j] -= moved;
     }
   }
-  for (double& one : share) one = std::max(one, min_share);
+  for (double& one : volume_share) one = std::max(one, min_volume_share);
 }
 
 }  // namespace
@@ -120,18 +120,18 @@ std::vector<double> volume_shares(const Surface& surface, const PackOptions& opt
     });
   }
   double inside = 0, outside = 0;
-  std::vector<double> share(sampled.count.size(), 1);
-  for (std::size_t i = 0; i < share.size(); ++i) {
+  std::vector<double> volume_share(sampled.count.size(), 1);
+  for (std::size_t i = 0; i < volume_share.size(); ++i) {
     const bool whole = owners.surrounded(i);
-    if (!whole) share[i] = sampled.share(i);
-    (whole ? inside : outside) += share[i];
+    if (!whole) volume_share[i] = sampled.volume_share(i);
+    (whole ? inside : outside) += volume_share[i];
   }
   const double wanted = volume / volume_per_particle(lattice.radius) - inside;
   if (volume > 0 && wanted > outside / max_scaling && wanted < outside * max_scaling)
-    for (std::size_t i = 0; i < share.size(); ++i)
-      if (!owners.surrounded(i)) share[i] *= wanted / outside;
-  balance(owners, sampled, share);
-  return share;
+    for (std::size_t i = 0; i < volume_share.size(); ++i)
+      if (!owners.surrounded(i)) volume_share[i] *= wanted / outside;
+  balance(owners, sampled, volume_share);
+  return volume_share;
 }
 
 }  // namespace sinew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/analysis/held_motion.h>
+#include <sinew/analysis/free_motion.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -14,40 +14,41 @@
 namespace sinew {
 namespace {
 
-using Motion6 = Eigen::Matrix<double, 6, 1>;  // translation, then rotation times the part's size
+using Motion6 =
+    Eigen::Matrix<double, 6, 1>;  // translation, then rotation times the component's size
 using Gram = Eigen::Matrix<double, 6, 6>;
 
-constexpr double none = 1e-8;  // of the largest: what counts as no motion, and as not held
+constexpr double none = 1e-8;  // of the largest: what counts as no motion, and as not restrained
 constexpr double small_rotation = 1e-3;  // beside a translation
 
-/// Connected parts, by particle.
-struct PartNumbers {
+/// Connected components, by particle.
+struct ComponentNumbers {
   std::vector<std::size_t> of;
   std::size_t count = 0;
 };
 
-PartNumbers parts_of(const Body& body) {
+ComponentNumbers components_of(const Body& body) {
   const std::size_t n = body.rest.size();
   UnionFind joined(n);
   const SharedNeighbors near = neighbors_of(body);
   for (std::size_t i = 0; i < n; ++i)
     for (const std::uint32_t j : near->all().of(i))
       joined.join(static_cast<int>(i), static_cast<int>(j));
-  PartNumbers parts;
-  parts.of.resize(n);
+  ComponentNumbers components;
+  components.of.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const auto first = static_cast<std::size_t>(joined.first_of(static_cast<int>(i)));
-    parts.of[i] = first == i ? parts.count++ : parts.of[first];
+    components.of[i] = first == i ? components.count++ : components.of[first];
   }
-  return parts;
+  return components;
 }
 
-/// One part of the body: which of its motions move it, and which are held.
-struct Part {
+/// One component of the body: which of its motions move it, and which are restrained.
+struct Component {
   Vec3 center = Vec3::Zero();
   double size = 0;
   std::size_t particles = 0;
-  Gram moved = Gram::Zero(), held = Gram::Zero();
+  Gram moved = Gram::Zero(), restrained = Gram::Zero();
 
   void add(const Vec3& place, const Vec3& direction, Gram& to) const {
     Motion6 row;
@@ -56,71 +57,76 @@ struct Part {
   }
 };
 
-std::vector<Part> parts_at_rest(const Body& body, const PartNumbers& numbers) {
-  std::vector<Part> parts(numbers.count);
-  const std::vector<std::size_t>& part = numbers.of;
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    ++parts[part[i]].particles;
-    parts[part[i]].center += body.rest[i];
+std::vector<Component> components_at_rest(const Body& body, const ComponentNumbers& numbers) {
+  std::vector<Component> components(numbers.count);
+  const std::vector<std::size_t>& component = numbers.of;
+  for (std::size_t i = 0; i < component.size(); ++i) {
+    ++components[component[i]].particles;
+    components[component[i]].center += body.rest[i];
   }
-  for (Part& one : parts) one.center /= static_cast<double>(one.particles);
-  for (std::size_t i = 0; i < part.size(); ++i)
-    parts[part[i]].size = std::max(
-        {parts[part[i]].size, body.material.pair.r, (body.rest[i] - parts[part[i]].center).norm()});
-  for (std::size_t i = 0; i < part.size(); ++i)
+  for (Component& one : components) one.center /= static_cast<double>(one.particles);
+  for (std::size_t i = 0; i < component.size(); ++i)
+    components[component[i]].size =
+        std::max({components[component[i]].size, body.material.pair.r,
+                  (body.rest[i] - components[component[i]].center).norm()});
+  for (std::size_t i = 0; i < component.size(); ++i)
     for (int axis = 0; axis < 3; ++axis)
-      parts[part[i]].add(body.rest[i], Vec3::Unit(axis), parts[part[i]].moved);
-  return parts;
+      components[component[i]].add(body.rest[i], Vec3::Unit(axis), components[component[i]].moved);
+  return components;
 }
 
-void hold_by_bone(const Body& body, const Influence& by, const Vec3& place, Part& part) {
+void restrain_by_bone(const Body& body, const Influence& by, const Vec3& place,
+                      Component& component) {
   const Bone& bone = body.skeleton.bones[static_cast<std::size_t>(by.bone)];
   const BoneSprings& springs = body.springs[static_cast<std::size_t>(by.bone)];
   const Vec3 across = place - by.foot_on(bone);
   const bool without_arm = across.norm() < 1e-6 * body.material.pair.r;
   if (springs.form == BoneForce::anchor || without_arm) {
     if (springs.radial > 0)
-      for (int axis = 0; axis < 3; ++axis) part.add(place, Vec3::Unit(axis), part.held);
+      for (int axis = 0; axis < 3; ++axis)
+        component.add(place, Vec3::Unit(axis), component.restrained);
   } else {
     const Vec3 turning = bone.axis().cross(across);
-    if (springs.radial > 0) part.add(place, across.normalized(), part.held);
+    if (springs.radial > 0) component.add(place, across.normalized(), component.restrained);
     if (springs.twist > 0 && turning.norm() > 1e-6 * body.material.pair.r)
-      part.add(place, turning.normalized(), part.held);
+      component.add(place, turning.normalized(), component.restrained);
   }
   if (springs.form != BoneForce::anchor && springs.axial > 0)
-    part.add(place, bone.axis(), part.held);
+    component.add(place, bone.axis(), component.restrained);
 }
 
-void add_what_holds(const Body& body, const std::vector<std::size_t>& part,
-                    std::vector<Part>& parts) {
-  for (std::size_t i = 0; i < part.size(); ++i)
+void add_restraints(const Body& body, const std::vector<std::size_t>& component,
+                    std::vector<Component>& components) {
+  for (std::size_t i = 0; i < component.size(); ++i)
     for (const Influence& by : body.binding.of(i))
-      hold_by_bone(body, by, body.rest[i], parts[part[i]]);
+      restrain_by_bone(body, by, body.rest[i], components[component[i]]);
   if (!body.world) return;
   for (const Pinned& pin : body.world->pins)
     if (pin.is_oblique())
-      parts[part[pin.particle]].add(body.rest[pin.particle], pin.along,
-                                    parts[part[pin.particle]].held);
+      components[component[pin.particle]].add(body.rest[pin.particle], pin.along,
+                                              components[component[pin.particle]].restrained);
   for (const Pinned& pin : body.world->pins)
     for (int axis = 0; axis < 3; ++axis)
       if (pin.holds(axis))
-        parts[part[pin.particle]].add(body.rest[pin.particle], Vec3::Unit(axis),
-                                      parts[part[pin.particle]].held);
+        components[component[pin.particle]].add(body.rest[pin.particle], Vec3::Unit(axis),
+                                                components[component[pin.particle]].restrained);
 }
 
-/// The motion that is held least, of those that move the part; of length 0 where all are held.
-Motion6 free_of(const Part& part) {
-  const Eigen::SelfAdjointEigenSolver<Gram> moved(part.moved);
+/// The motion that is restrained least, of those that move the component; of length 0 where all
+/// are.
+Motion6 free_of(const Component& component) {
+  const Eigen::SelfAdjointEigenSolver<Gram> moved(component.moved);
   const double most = moved.eigenvalues()[5];
   int first = 0;
   while (moved.eigenvalues()[first] < none * most) ++first;
   const Eigen::Matrix<double, 6, Eigen::Dynamic> motions =
       moved.eigenvectors().rightCols(6 - first) *
       moved.eigenvalues().tail(6 - first).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> held(
-      Eigen::MatrixXd(motions.transpose() * part.held * motions));
-  if (held.eigenvalues()[0] > none * held.eigenvalues().tail(1)[0]) return Motion6::Zero();
-  return motions * held.eigenvectors().col(0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> restrained(
+      Eigen::MatrixXd(motions.transpose() * component.restrained * motions));
+  if (restrained.eigenvalues()[0] > none * restrained.eigenvalues().tail(1)[0])
+    return Motion6::Zero();
+  return motions * restrained.eigenvectors().col(0);
 }
 
 /// Scales to length 1, with the largest component positive.
@@ -147,10 +153,10 @@ std::string FreeMotion::text() const {
 }
 
 std::optional<FreeMotion> free_motion(const Body& body) {
-  const PartNumbers numbers = parts_of(body);
-  std::vector<Part> parts = parts_at_rest(body, numbers);
-  add_what_holds(body, numbers.of, parts);
-  for (const Part& one : parts) {
+  const ComponentNumbers numbers = components_of(body);
+  std::vector<Component> components = components_at_rest(body, numbers);
+  add_restraints(body, numbers.of, components);
+  for (const Component& one : components) {
     const Motion6 free = free_of(one);
     if (free.isZero(0)) continue;
     FreeMotion motion;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/groups/bone_parts.h>
+#include <sinew/groups/bone_assemblies.h>
 
 #include <cmath>
 
@@ -30,14 +30,14 @@ bool differ(const RigidFrame& a, const RigidFrame& b, double length) {
 }
 
 /// Bones that are stiff to each other have the same number: that of the first of them.
-std::vector<int> stiff_parts(const Skeleton& skeleton, const std::vector<bool>& moves) {
-  std::vector<int> part(skeleton.size());
-  for (std::size_t b = 0; b < part.size(); ++b) {
+std::vector<int> assemblies_of(const Skeleton& skeleton, const std::vector<bool>& moves) {
+  std::vector<int> assembly(skeleton.size());
+  for (std::size_t b = 0; b < assembly.size(); ++b) {
     const int parent = skeleton.bones[b].parent;
-    part[b] = parent == no_bone || moves[b] ? static_cast<int>(b)
-                                            : part[static_cast<std::size_t>(parent)];
+    assembly[b] = parent == no_bone || moves[b] ? static_cast<int>(b)
+                                                : assembly[static_cast<std::size_t>(parent)];
   }
-  return part;
+  return assembly;
 }
 
 }  // namespace
@@ -47,8 +47,8 @@ std::vector<bool> moving_joints(const Skeleton& skeleton, const Motion& motion, 
   std::vector<bool> moves(skeleton.size(), false);
   PoseCursor cursor(skeleton, motion);
   for (int moment = 0; moment <= moments; ++moment) {
-    const double share = static_cast<double>(moment) / moments;
-    const Pose& now = cursor.at(span.begin + share * (span.end - span.begin));
+    const double fraction = static_cast<double>(moment) / moments;
+    const Pose& now = cursor.at(span.begin + fraction * (span.end - span.begin));
     for (std::size_t b = 0; b < moves.size(); ++b)
       moves[b] = moves[b] || now[b].stretch != 1 ||
                  differ(relative(skeleton, before, b), relative(skeleton, now, b),
@@ -57,10 +57,10 @@ std::vector<bool> moving_joints(const Skeleton& skeleton, const Motion& motion, 
   return moves;
 }
 
-BoneParts::BoneParts(const Body& body, const std::vector<bool>& moves, double joint_distance,
-                     std::span<const std::uint8_t> kept_free)
+BoneAssemblies::BoneAssemblies(const Body& body, const std::vector<bool>& moves,
+                               double joint_distance, std::span<const std::uint8_t> kept_free)
     : body_(body),
-      part_(stiff_parts(body.skeleton, moves)),
+      assembly_(assemblies_of(body.skeleton, moves)),
       acted_(kept_free.begin(), kept_free.end()) {
   acted_.resize(body.rest.size(), 0);
   for (std::size_t b = 0; b < moves.size(); ++b)
@@ -76,20 +76,20 @@ BoneParts::BoneParts(const Body& body, const std::vector<bool>& moves, double jo
     if (body.world->muscles.row[i] >= 0) acted_[i] = 1;
 }
 
-int BoneParts::of(std::size_t i) const {
+int BoneAssemblies::of(std::size_t i) const {
   const auto bones = body_.binding.of(i);
   if (acted_[i] != 0) return none;
   if (bones.empty()) return without_bones;
-  const int part = part_[static_cast<std::size_t>(bones.front().bone)];
+  const int assembly = assembly_[static_cast<std::size_t>(bones.front().bone)];
   for (const Influence& one : bones)
-    if (part_[static_cast<std::size_t>(one.bone)] != part) return none;
+    if (assembly_[static_cast<std::size_t>(one.bone)] != assembly) return none;
   const Vec3 axis = body_.skeleton.bones[static_cast<std::size_t>(bones.front().bone)].axis();
   for (const Joint& joint : joints_) {
     const Vec3 from = body_.rest[i] - joint.place;
     const double along = axis.dot(from);
     if (std::abs(along) < joint.distance && (from - along * axis).norm() < joint.reach) return none;
   }
-  return part;
+  return assembly;
 }
 
 }  // namespace sinew

@@ -11,7 +11,7 @@
 namespace sinew {
 
 /// Their rigid velocity field by least squares, and boxes around them. The survey is relative to
-/// `center` and along `axes`, and rounded by that share of its extent.
+/// `center` and along `axes`, and rounded by that fraction of its extent.
 PieceNow motion_of(const kernel::Survey& survey, std::size_t particles, const Vec3& center,
                    const Mat3& axes, double rounding);
 

@@ -11,7 +11,7 @@
 #include <sinew/repair/read_surface.h>
 #include "mesh/mesh_files.h"
 
-namespace sinew::shares_test {
+namespace sinew::volume_shares_test {
 
 constexpr double radius = 0.008;
 
@@ -19,10 +19,10 @@ Surface creature() {
   return read_surface(mesh_files::body_at(SINEW_SOURCE_DIR "/data/meshes/creature.ply"));
 }
 
-PackOptions with_shares() {
+PackOptions with_volume_shares() {
   PackOptions options;
   options.radius = radius;
-  options.shares = true;
+  options.volume_shares = true;
   return options;
 }
 
@@ -37,23 +37,24 @@ Surface moved(Surface surface, const Mat3& by) {
 using Place = std::array<std::int64_t, 3>;
 
 std::map<Place, double> by_place(const Filling& filling, const Mat3& back) {
-  std::map<Place, double> shares;
+  std::map<Place, double> volume_shares;
   for (std::size_t i = 0; i < filling.particles.size(); ++i) {
     const Vec3 at = back * filling.particles.position(i) / (0.01 * radius);
-    shares[{std::llround(at.x()), std::llround(at.y()), std::llround(at.z())}] = filling.share[i];
+    volume_shares[{std::llround(at.x()), std::llround(at.y()), std::llround(at.z())}] =
+        filling.volume_share[i];
   }
-  return shares;
+  return volume_shares;
 }
 
-TEST(Shares, SumToTheVolumeAndKeepItsCenter) {
+TEST(VolumeShares, SumToTheVolumeAndKeepItsCenter) {
   const Surface surface = creature();
-  const Filling filling = pack(surface, with_shares());
-  const double sum = std::accumulate(filling.share.begin(), filling.share.end(), 0.0);
+  const Filling filling = pack(surface, with_volume_shares());
+  const double sum = std::accumulate(filling.volume_share.begin(), filling.volume_share.end(), 0.0);
   const double whole = volume(surface.triangles) / volume_per_particle(radius);
   EXPECT_NEAR(sum, whole, 0.01 * whole);
   Vec3 center = Vec3::Zero(), of_mesh = Vec3::Zero();
-  for (std::size_t i = 0; i < filling.share.size(); ++i)
-    center += filling.share[i] / sum * filling.particles.position(i);
+  for (std::size_t i = 0; i < filling.volume_share.size(); ++i)
+    center += filling.volume_share[i] / sum * filling.particles.position(i);
   double volume = 0;
   for (const auto& [a, b, c] : surface.triangles.faces) {
     const auto& p = surface.triangles.points;
@@ -64,20 +65,20 @@ TEST(Shares, SumToTheVolumeAndKeepItsCenter) {
   EXPECT_LT((center - of_mesh / volume).norm(), 0.05 * radius);
 }
 
-TEST(Shares, AreThoseOfTheBodyTurnedOrMirroredInItsLattice) {
+TEST(VolumeShares, AreThoseOfTheBodyTurnedOrMirroredInItsLattice) {
   const Surface surface = creature();
-  const auto as_it_is = by_place(pack(surface, with_shares()), Mat3::Identity());
+  const auto as_it_is = by_place(pack(surface, with_volume_shares()), Mat3::Identity());
   const Mat3 mirror = Vec3(1, -1, 1).asDiagonal();
   const Mat3 turn = (Mat3() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished();
   const Mat3 cycle = (Mat3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished();
   for (const Mat3& by : {mirror, turn, cycle}) {
-    const auto other = by_place(pack(moved(surface, by), with_shares()), by.transpose());
+    const auto other = by_place(pack(moved(surface, by), with_volume_shares()), by.transpose());
     ASSERT_EQ(other.size(), as_it_is.size());
-    for (const auto& [place, share] : as_it_is) {
+    for (const auto& [place, volume_share] : as_it_is) {
       ASSERT_TRUE(other.contains(place));
-      EXPECT_NEAR(other.at(place), share, 1e-9);
+      EXPECT_NEAR(other.at(place), volume_share, 1e-9);
     }
   }
 }
 
-}  // namespace sinew::shares_test
+}  // namespace sinew::volume_shares_test

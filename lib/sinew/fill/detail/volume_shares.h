@@ -4,7 +4,7 @@
 // the part that is nearer to a particle than to any other one; where that reaches far out, its
 // neighbors behind lend it some of theirs.
 //
-//     filling.share = volume_shares(surface, options, space, lattice, owners, volume);
+//     filling.volume_share = volume_shares(surface, options, space, lattice, owners, volume);
 #pragma once
 
 #include <vector>

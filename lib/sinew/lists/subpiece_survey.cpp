@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/lists/part_survey.h>
+#include <sinew/lists/subpiece_survey.h>
 
 #include <Eigen/Dense>
 

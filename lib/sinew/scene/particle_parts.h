@@ -2,7 +2,7 @@
 // Parts of a scene's body at rest, as materials, supports, loads and probes name them: particles,
 // and faces of the surface.
 //
-//     const Parts parts(settings, body, surface, components);
+//     const ParticleParts parts(settings, body, surface, components);
 //     const auto held = parts.particles(settings.supports[0].part, "supports[0]");
 #pragma once
 
@@ -25,12 +25,12 @@ std::string extent_text(const Points& points);
 std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& path,
                                   const std::vector<double>& numbers, std::size_t particles);
 
-class Parts {
+class ParticleParts {
  public:
   /// `surface`: of the body, as filled; only what is on it needs one. `component`: of each
   /// particle; only parts by component need them.
-  Parts(const Settings& settings, const Body& body, const Triangles& surface,
-        std::span<const std::int32_t> component);
+  ParticleParts(const Settings& settings, const Body& body, const Triangles& surface,
+                std::span<const std::int32_t> component);
 
   /// The particles in a part, by id, ascending: of a part that faces a direction those next to its
   /// faces. Throws bad input, with the scene's line, for unknown bones, numbers of particles that
@@ -59,6 +59,6 @@ class Parts {
 /// The list `materials` of a scene: gives the particles of each part of a bound body its stiffness,
 /// its strength and its number; of parts that overlap the last one counts for what it gives. Throws
 /// bad input, with the scene's line, for parts without particles.
-void set_local_materials(const Settings& settings, const Parts& parts, Body& body);
+void set_local_materials(const Settings& settings, const ParticleParts& parts, Body& body);
 
 }  // namespace sinew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/parts.h>
+#include <sinew/scene/particle_parts.h>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "support/scratch.h"
 #include "support/world.h"
 
-namespace sinew::parts_test {
+namespace sinew::particle_parts_test {
 
 constexpr double r = 0.01;
 
@@ -37,7 +37,7 @@ struct World {
   Body body = test::make_body(settings, rest);
   Triangles surface = box_around(rest);
   std::vector<std::int32_t> component = std::vector<std::int32_t>(rest.size(), 0);
-  Parts parts{settings, body, surface, component};
+  ParticleParts parts{settings, body, surface, component};
 
   std::vector<std::uint32_t> where(const std::function<bool(const Vec3&)>& holds) const {
     std::vector<std::uint32_t> ids;
@@ -47,7 +47,7 @@ struct World {
   }
 };
 
-TEST(Parts, OfASurfaceAreTheParticlesNextToIt) {
+TEST(ParticleParts, OfASurfaceAreTheParticlesNextToIt) {
   const World world;
   PartSettings top;
   top.facing = Vec3(0, 0, 3);
@@ -64,7 +64,7 @@ TEST(Parts, OfASurfaceAreTheParticlesNextToIt) {
             world.where([&](const Vec3& p) { return p.z() == high; }).size());
 }
 
-TEST(Parts, AreWhatIsInAllRegionsThatAreGiven) {
+TEST(ParticleParts, AreWhatIsInAllRegionsThatAreGiven) {
   const World world;
   PartSettings part;
   EXPECT_EQ(world.parts.particles(part, "").size(), world.rest.size());
@@ -170,7 +170,7 @@ TEST_F(PartsOfMeshes, AreInsideOfThem) {
   test::expect_bad_input([&] { world.parts.particles(part, "materials[0]"); }, {"none.obj"});
 }
 
-TEST(Parts, ThatAreEmptyAreRefused) {
+TEST(ParticleParts, ThatAreEmptyAreRefused) {
   const World world;
   PartSettings part;
   part.component = 1;
@@ -188,7 +188,7 @@ TEST(Parts, ThatAreEmptyAreRefused) {
   part.bone = "tail";
   test::expect_bad_input([&] { world.parts.particles(part, "probes[0]"); }, {"no bone 'tail'"});
   const Triangles none;
-  const Parts bare(world.settings, world.body, none, {});
+  const ParticleParts bare(world.settings, world.body, none, {});
   part = {};
   part.facing = Vec3(0, 0, 1);
   test::expect_bad_input([&] { bare.particles(part, ""); }, {"a surface without a mesh"});
@@ -196,7 +196,7 @@ TEST(Parts, ThatAreEmptyAreRefused) {
 
 /// Each load and probe keeps what it acts on: thousands on the whole body are refused before they
 /// fill the memory, and as many on parts of their own are not.
-TEST(Parts, OnWhichThousandsActAreRefused) {
+TEST(ParticleParts, OnWhichThousandsActAreRefused) {
   World world;
   sinew::World machine;
   LoadSettings load;
@@ -222,4 +222,4 @@ TEST(Parts, OnWhichThousandsActAreRefused) {
   EXPECT_NO_THROW(add());
 }
 
-}  // namespace sinew::parts_test
+}  // namespace sinew::particle_parts_test
