@@ -27,6 +27,7 @@
 #include <sinew/rig/posing.h>
 #include <sinew/rig/skeleton.h>
 #include <sinew/run/export_run.h>
+#include <sinew/run/frame_data.h>
 #include <sinew/run/frame_writer.h>
 #include <sinew/run/measure_run.h>
 #include <sinew/run/particle_meter.h>
@@ -41,6 +42,9 @@
 #include <sinew/study/study_files.h>
 #if __has_include(<sinew/render/figure.h>)  // without VTK there is none
 #include <sinew/render/figure.h>
+#endif
+#if __has_include(<sinew/vtk/data_sets.h>) && __has_include(<vtkSmartPointer.h>)
+#include <sinew/vtk/data_sets.h>
 #endif
 #include <sinew/world/own_forces.h>
 #include <sinew/world/world.h>

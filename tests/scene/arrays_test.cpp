@@ -24,9 +24,8 @@ const PolygonSoup bar = shapes::box({-0.05, -0.05, 0}, {0.05, 0.05, 0.3});
 Settings scene_of_arrays() {
   Settings scene;
   scene.body.mesh = "my bar";
-  scene.meshes["my bar"] = std::make_shared<const PolygonSoup>(bar);
-  scene.meshes["my_bar"] =
-      std::make_shared<const PolygonSoup>(shapes::sphere(0.03, 3, {0.1, 0, 0.3}));
+  scene.meshes["my bar"] = bar;
+  scene.meshes["my_bar"] = shapes::sphere(0.03, 3, {0.1, 0, 0.3});
   scene.body.radius = 0.013;
   scene.bones = {{"lower", "", Vec3(0, 0, 0), Vec3(0, 0, 0.15)},
                  {"upper", "lower", {}, Vec3(0, 0, 0.3)}};
@@ -80,7 +79,7 @@ TEST(SceneOfArrays, NamesTheMeshThatIsWrong) {
   Settings scene = scene_of_arrays();
   PolygonSoup broken = bar;
   broken.polygons[2][0] = 99;
-  scene.meshes["my bar"] = std::make_shared<const PolygonSoup>(broken);
+  scene.meshes["my bar"] = broken;
   test::expect_bad_input([&] { prepare({scene}); }, {"my bar", "99"});
 }
 

@@ -67,8 +67,7 @@ Simulation bent(const ForceLaw* law, NeighborSearch search,
                 Precision precision = Precision::binary64) {
   Scene scene;
   scene.settings.body.mesh = "bar";
-  scene.settings.meshes["bar"] =
-      std::make_shared<const PolygonSoup>(shapes::box({-0.05, -0.05, 0}, {0.05, 0.05, 0.3}));
+  scene.settings.meshes["bar"] = shapes::box({-0.05, -0.05, 0}, {0.05, 0.05, 0.3});
   scene.settings.body.radius = 0.013;
   scene.settings.material.model = MaterialModel::bonded;
   scene.settings.solver.neighbor_search = search, scene.settings.solver.precision = precision;

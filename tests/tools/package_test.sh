@@ -32,6 +32,16 @@ test "$(grep -c '<DataSet' frames/particles.pvd)" = 4
 build/measure_run box.yaml run | grep -E '^tip 1[5-9]\.|^tip 2[0-5]\.'
 test "$(wc -l < run/bones.csv)" = 9  # two bones, four frames, and the names
 build/own_force box.yaml | grep -E '^mean displacement [0-9.e-]+ m along x$'
+if [ -e "$work/installed/include/sinew/vtk" ]; then
+  "$source/tests/tools/on_display.sh" build/vtk_scene bent.png
+  /usr/bin/python3 -c '
+from vtkmodules.vtkIOImage import vtkPNGReader
+reader = vtkPNGReader(FileName="bent.png")
+reader.Update()
+colors = reader.GetOutput().GetPointData().GetScalars()
+drawn = [sum(colors.GetTuple(i)) > 0 for i in range(colors.GetNumberOfTuples())]
+assert 0.05 < sum(drawn) / len(drawn) < 0.8, sum(drawn) / len(drawn)'
+fi
 if build/fill_mesh missing.obj body.vtu 2>error.txt; then exit 1; else test $? = 2; fi
 grep -q missing.obj error.txt
 

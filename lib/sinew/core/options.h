@@ -181,9 +181,9 @@ struct LimitDefinition {
 };
 
 struct BoneDefinition {
-  std::string name;
-  std::string parent;
-  std::optional<Vec3> head;       ///< the parent's tail when not given
+  std::string name = {};
+  std::string parent = {};
+  std::optional<Vec3> head = {};  ///< the parent's tail when not given
   std::optional<Vec3> tail = {};  ///< this or length
   std::optional<double> length = {};
   std::optional<Vec3> direction = {};  ///< with length; the parent's when not given
@@ -213,22 +213,22 @@ struct MotionOptions {
 };
 
 struct KeyDefinition {
-  std::optional<double> time;  ///< this or frame
-  std::optional<double> frame;
-  std::optional<Vec3> axis;
-  std::optional<double> angle;
-  std::optional<Vec3> euler;
-  std::optional<std::array<double, 4>> quaternion;  ///< w, x, y, z
+  std::optional<double> time = {};  ///< this or frame
+  std::optional<double> frame = {};
+  std::optional<Vec3> axis = {};
+  std::optional<double> angle = {};
+  std::optional<Vec3> euler = {};
+  std::optional<std::array<double, 4>> quaternion = {};  ///< w, x, y, z
   double twist = 0;
   Vec3 translation = Vec3::Zero();
   double stretch = 1;
 };
 
 struct TrackDefinition {
-  std::string bone;
+  std::string bone = {};
   Interpolation interpolation = Interpolation::smooth;
   std::string order = "xyz";
-  std::vector<KeyDefinition> keys;
+  std::vector<KeyDefinition> keys = {};
 };
 
 enum class BoneForce { paper, anchor };

@@ -251,7 +251,7 @@ void for_each_mesh(Settings& scene, const Visit& visit) {
 
 Settings with_mesh_files(Settings scene, const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
-  std::map<std::string, std::shared_ptr<const PolygonSoup>> meshes;
+  std::map<std::string, SharedPolygons> meshes;
   for (const auto& [name, soup] : scene.meshes) {
     std::string stem = file_name_of(name);
     while (meshes.contains((folder / stem).string() + ".ply")) stem += '_';

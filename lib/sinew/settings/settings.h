@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sinew/core/error.h>
@@ -207,6 +208,17 @@ struct OutputSettings {
   int inside_every = 1;
 };
 
+/// Polygons that the copies of a scene share.
+class SharedPolygons {
+ public:
+  SharedPolygons(PolygonSoup soup = {})
+      : soup_(std::make_shared<const PolygonSoup>(std::move(soup))) {}
+  const PolygonSoup& operator*() const { return *soup_; }
+
+ private:
+  std::shared_ptr<const PolygonSoup> soup_;
+};
+
 struct Settings {
   BodyOptions body;
   std::vector<PartOptions> bodies;  ///< list bodies: in addition to body.mesh
@@ -227,7 +239,7 @@ struct Settings {
   OutputSettings output;
 
   /// Polygons in place of files: by what body.mesh and the like give instead of a path.
-  std::map<std::string, std::shared_ptr<const PolygonSoup>> meshes;
+  std::map<std::string, SharedPolygons> meshes;
 
   /// Where each value was read, by its path: "body.mesh", "skeleton.bones[1].parent".
   std::map<std::string, Place, std::less<>> places;

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/frame_data.h>
+
+#include <algorithm>
+#include <cassert>
+#include <type_traits>
+#include <utility>
+
+#include <sinew/core/arrays.h>
+#include <sinew/core/error.h>
+#include <sinew/core/particles.h>
+#include <sinew/metrics/pair_forces.h>
+#include <sinew/metrics/particle_values.h>
+#include <sinew/run/detail/bond_frames.h>
+#include <sinew/scene/frame_content.h>
+
+namespace sinew {
+namespace {
+
+/// The bone of the particle that moves each vertex most.
+std::vector<std::int32_t> bones_of_vertices(const Skin& skin, const Binding& binding) {
+  std::vector<std::int32_t> bones;
+  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+    const auto begin = skin.weight.begin() + skin.first[i];
+    const auto most = std::max_element(begin, skin.weight.begin() + skin.first[i + 1]);
+    bones.push_back(
+        binding.bone(skin.near[skin.weighted[skin.particle[most - skin.weight.begin()]]]));
+  }
+  return bones;
+}
+
+/// The rows of a plain column for these particles; all of them where no ids are given.
+Column rows_of(Column column, const std::vector<std::int32_t>& ids) {
+  const auto select = [&](auto& values) {
+    if constexpr (requires { values[0]; }) {
+      const auto width = static_cast<std::size_t>(column.components);
+      std::remove_reference_t<decltype(values)> some;
+      some.reserve(width * ids.size());
+      for (const std::int32_t id : ids) {
+        const auto first = values.begin() + static_cast<std::ptrdiff_t>(width) * id;
+        some.insert(some.end(), first, first + column.components);
+      }
+      values = std::move(some);
+    }
+  };
+  if (!ids.empty()) std::visit(select, column.values);
+  return column;
+}
+
+BoneWeights weights_of_vertices(const Body& body, const Points& vertices) {
+  BoneWeights weights;
+  weights.first = body.binding.first;
+  for (const Influence& influence : body.binding.influences)
+    weights.weights.push_back({influence.bone, influence.weight});
+  return carried_weights(body.rest, weights, vertices);
+}
+
+Dataset obstacles_of(const std::vector<Triangles>& surfaces, const std::vector<ObstaclePose>& poses,
+                     const std::vector<Reaction>& reactions, Moment moment) {
+  std::vector<ObstacleFrame> frames;
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    frames.push_back({surfaces[k], poses[k].frame, poses[k].velocity, poses[k].angular_velocity,
+                      reactions[k].force, reactions[k].moment});
+  return obstacles_dataset(frames, moment);
+}
+
+/// Force and moment on each bone, in separate lists.
+struct ReactionColumns {
+  Points force, moment;
+
+  explicit ReactionColumns(const std::vector<Reaction>& reactions) {
+    for (const Reaction& on : reactions) {
+      force.push_back(on.force);
+      moment.push_back(on.moment);
+    }
+  }
+  operator Reactions() const { return {force, moment}; }
+};
+
+}  // namespace
+
+FrameData::FrameData(const OutputSettings& output, const Body& body, const FrameScene& scene,
+                     StrainInFrames strain)
+    : body_(body),
+      selection_{written_particles(output, body.rest, body.material.pair.r, scene.neighbors),
+                 frame_arrays(output.only)},
+      probed_(!scene.probes.empty()),
+      skin_(make_skin(scene.surface.points, body.rest, body.material.pair.r, body.skeleton,
+                      body.binding)),
+      surface_(scene.surface),
+      surface_bone_(bones_of_vertices(skin_, body.binding)),
+      obstacles_(scene.obstacles) {
+  begin_arrays(output, scene, strain);
+}
+
+FrameData::FrameData(const Prepared& prepared)
+    : FrameData(prepared.settings.output, prepared.body,
+                {prepared.surface.triangles, prepared.obstacles, {}, {}, prepared.body.neighbors}) {
+}
+
+void FrameData::begin_arrays(const OutputSettings& output, const FrameScene& scene,
+                             StrainInFrames strain) {
+  const std::string words = strain == StrainInFrames::by_default ? words_for_arrays(output, body_)
+                                                                 : words_asked_for(output, body_);
+  arrays_ = requested_arrays(words);
+  if (arrays_.empty() && !output.bonds && !probed_) return;
+  measured_.emplace(body_, scene.surface, scene.neighbors);
+  try {
+    arrays_ = defined_arrays(measured_->rest(), measured_->at_rest(), words);
+  } catch (const Error& error) {
+    throw error.with_context({"output.arrays"});
+  }
+}
+
+void FrameData::take(Simulation& simulation, double time, bool with_particles) {
+  FrameMoment& frame = now_;
+  simulation.reuse(std::move(frame.particles), std::move(frame.forces));
+  frame.moment = {time, static_cast<std::int32_t>(simulation.steps())};
+  frame.with_particles = with_particles;
+  frame.pose = simulation.pose();
+  frame.energies = simulation.energies();
+  if (body_.world) {
+    WorldNow now = world_at(*body_.world, time, frame.pose);
+    frame.obstacles = std::move(now.obstacles);
+    frame.on_obstacles = simulation.reactions_of_obstacles();
+    frame.supports = std::move(now.supports);
+    frame.support_reactions = simulation.support_reactions();
+    frame.load_reactions = simulation.load_reactions();
+  }
+  if (frame.with_particles) frame.broken_bonds = simulation.broken_bonds();
+  frame.grouping = simulation.body().grouping;
+  frame.reactions = simulation.reactions_of_bones();
+  frame.forces = simulation.take_forces();
+  frame.particles = simulation.take_particles();
+  find_positions_by_id(frame.particles, frame.positions);
+  frame.measured = FrameState();
+  if (measured_ && (frame.with_particles || probed_)) {
+    frame.measured.positions = frame.positions;
+    for (const BonePose& bone : frame.pose) frame.measured.bones.push_back(bone.frame);
+    measured_->take_forces(simulation, time, frame.measured);
+  }
+  for (const auto axis : {&Particles::x, &Particles::y, &Particles::z})
+    frame.particles.*axis = std::vector<double>();  // {} would keep their memory
+}
+
+Dataset FrameData::particles() { return particles_at(now_.positions); }
+
+void FrameData::lend_particles(const std::function<void(const Dataset&)>& use) {
+  const bool all = selection_.ids.empty();
+  Dataset lent = particles_at(all ? std::move(now_.positions) : now_.positions);
+  use(lent);
+  if (all) now_.positions = std::move(lent.points);
+}
+
+Dataset FrameData::particles_at(Points positions) {
+  assert(now_.with_particles);
+  const Forces& forces = now_.forces;
+  group_.clear(), level_.clear();
+  if (now_.grouping) group_ = now_.grouping->group, level_ = now_.grouping->levels();
+  Dataset particles = particles_dataset({now_.particles,
+                                         body_.rest,
+                                         body_.binding,
+                                         forces.pair,
+                                         forces.damping,
+                                         forces.bone,
+                                         forces.neighbors,
+                                         now_.energies,
+                                         forces.world,
+                                         body_.material_number,
+                                         now_.broken_bonds,
+                                         {},
+                                         group_,
+                                         level_,
+                                         forces.group},
+                                        std::move(positions), now_.moment, selection_);
+  if (!measured_) return particles;
+  for (Column& array : particle_arrays(measured_->rest(), now_.measured, arrays_))
+    particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
+  return particles;
+}
+
+Dataset FrameData::surface() {
+  surface_.points = follow(skin_, now_.positions);
+  return surface_dataset(surface_, skin_.rest, surface_bone_, now_.moment);
+}
+
+Dataset FrameData::skinned(SkinningMethod method) {
+  if (vertex_weights_.first.empty()) vertex_weights_ = weights_of_vertices(body_, skin_.rest);
+  const Triangles moved{method(skin_.rest, vertex_weights_, body_.skeleton, now_.pose),
+                        surface_.faces};
+  return surface_dataset(moved, skin_.rest, surface_bone_, now_.moment);
+}
+
+Dataset FrameData::bones() const { return bones_dataset(body_.skeleton, now_.pose, now_.moment); }
+
+Dataset FrameData::frames() const {
+  const ReactionColumns reactions(now_.reactions.sums());
+  return frames_dataset(body_.skeleton, now_.pose, reactions, now_.moment);
+}
+
+Dataset FrameData::obstacles() const {
+  return obstacles_of(obstacles_, now_.obstacles, now_.on_obstacles, now_.moment);
+}
+
+MachineMoment FrameData::machine() const {
+  return {now_.moment.time, now_.positions, now_.supports, now_.support_reactions,
+          now_.load_reactions};
+}
+
+Dataset FrameData::supports() const {
+  if (!body_.world) return supports_dataset({}, now_.moment);
+  return supports_dataset(support_frames(*body_.world, machine(), body_.rest), now_.moment);
+}
+
+Dataset FrameData::bonds() const {
+  assert(measured_);
+  return bonds_dataset(bond_values(measured_->rest(), now_.measured), now_.positions,
+                       selection_.ids, now_.moment);
+}
+
+std::vector<Column> FrameData::measured(std::span<const std::string_view> names) const {
+  assert(measured_ && probed_);
+  return particle_arrays(measured_->rest(), now_.measured, names);
+}
+
+bool FrameData::is_plain() const {
+  return arrays_.empty() && selection_.ids.empty() && body_.material_number.empty() &&
+         !body_.grouping;
+}
+
+}  // namespace sinew

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/vtk/data_sets.h>
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkDataSetSurfaceFilter.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <limits>
+#include <string>
+
+#include <sinew/core/error.h>
+
+namespace sinew {
+namespace {
+
+/// The corners of a cell.
+struct Corners {
+  vtkIdType count;
+  const vtkIdType* ids;
+
+  int operator[](vtkIdType k) const { return static_cast<int>(ids[k]); }
+};
+
+Error damaged(const std::string& what) {
+  return bad_input("the data set of VTK has a " + what,
+                   "give each cell at least 3 of the data set's points");
+}
+
+/// Every second triangle of a strip is turned the other way.
+void add_strip(const Corners& strip, PolygonSoup& soup) {
+  for (vtkIdType k = 0; k + 2 < strip.count; ++k) {
+    const vtkIdType odd = k % 2;
+    soup.polygons.push_back({strip[k], strip[k + 1 + odd], strip[k + 2 - odd]});
+  }
+}
+
+void add_polygon(const Corners& polygon, PolygonSoup& soup) {
+  std::vector<int>& corners = soup.polygons.emplace_back();
+  corners.reserve(static_cast<std::size_t>(polygon.count));
+  for (vtkIdType k = 0; k < polygon.count; ++k) corners.push_back(polygon[k]);
+}
+
+void add_cells(vtkCellArray& cells, const std::string& kind,
+               void (*add)(const Corners&, PolygonSoup&), PolygonSoup& soup) {
+  const auto points = static_cast<vtkIdType>(soup.points.size());
+  const auto each = vtk::TakeSmartPointer(cells.NewIterator());
+  for (each->GoToFirstCell(); !each->IsDoneWithTraversal(); each->GoToNextCell()) {
+    Corners cell{};
+    each->GetCurrentCell(cell.count, cell.ids);
+    const std::string name = kind + ' ' + std::to_string(each->GetCurrentCellId());
+    if (cell.count < 3)
+      throw damaged(name + " of " + std::to_string(cell.count) + " points, too few");
+    for (vtkIdType k = 0; k < cell.count; ++k)
+      if (cell.ids[k] < 0 || cell.ids[k] >= points)
+        throw damaged(name + " with point " + std::to_string(cell.ids[k]) + " of " +
+                      std::to_string(points));
+    add(cell, soup);
+  }
+}
+
+Points points_of(vtkPolyData& shape) {
+  const vtkIdType count = shape.GetNumberOfPoints();
+  if (count > std::numeric_limits<int>::max())
+    throw bad_input("the data set of VTK has " + std::to_string(count) + " points, over 2^31",
+                    "make it coarser: vtkQuadricClustering");
+  Points points(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i) {
+    Vec3& point = points[static_cast<std::size_t>(i)];
+    shape.GetPoint(i, point.data());
+    if (!point.allFinite())
+      throw bad_input("point " + std::to_string(i) + " of the data set of VTK is not finite",
+                      "give its points finite coordinates");
+  }
+  return points;
+}
+
+PolygonSoup soup_of(vtkPolyData& shape) {
+  const vtkIdType cells = shape.GetNumberOfPolys() + shape.GetNumberOfStrips();
+  if (shape.GetNumberOfPoints() == 0 && cells == 0)
+    throw bad_input("the data set of VTK is empty",
+                    "call Update() on the source or filter that makes it, and check its input");
+  if (cells == 0)
+    throw bad_input("the data set of VTK has points, and no polygons or triangle strips",
+                    "give the surface of the body: vertices and lines have no inside");
+  PolygonSoup soup{points_of(shape), {}};
+  soup.polygons.reserve(static_cast<std::size_t>(cells));
+  add_cells(*shape.GetPolys(), "polygon", add_polygon, soup);
+  add_cells(*shape.GetStrips(), "strip", add_strip, soup);
+  return soup;
+}
+
+}  // namespace
+
+PolygonSoup polygons_of(vtkDataSet& shape) {
+  if (auto* polygons = vtkPolyData::SafeDownCast(&shape)) return soup_of(*polygons);
+  if (vtkImageData::SafeDownCast(&shape) != nullptr)
+    throw bad_input("the data set of VTK is an image, whose surface is a box",
+                    "give a contour of it: vtkFlyingEdges3D or vtkContourFilter");
+  vtkNew<vtkDataSetSurfaceFilter> surface;
+  surface->SetInputData(&shape);
+  surface->Update();
+  return soup_of(*surface->GetOutput());
+}
+
+}  // namespace sinew
