@@ -26,7 +26,7 @@ EQUIVALENT = [
      "how work is split: results do not depend on it"),
     (r".*", r"1e-9\b", r"1e-9", "a tolerance of roundings, a fifth larger"),
     (r".*metrics/(rest_body|frame|limits|sections|summary|surface_distortion|report/playback|report/report)\.h",
-     r"^  [\w:<>]+ \w+ = 0(, \w+ = [01])*;|double share = 1\)", r"[01]", "a value that is always given"),
+     r"^  [\w:<>]+ \w+ = 0(, \w+ = [01])*;|double fraction = 1\)", r"[01]", "a value that is always given"),
     (r".*report/playback\.cpp", r"place\(stand_in.size\(\), -1\)", r"1", "every place that is read was set"),
     (r".*sections\.cpp", r"for \(std::size_t i = begin", r"\+\+", "pieces of one"),
     (r".*surface_distortion\.cpp", r"^Vec3 area_vector", r"0", "a triangle's area is that from any of its corners"),
