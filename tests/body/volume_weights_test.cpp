@@ -67,7 +67,8 @@ TEST(VolumeWeights, FollowVolumeShares) {
   std::vector<double> volume_share(rest.size(), 1);
   for (std::size_t i = 0; i < rest.size(); ++i)
     if (rest[i].z() < half_plane_spacing(r)) volume_share[i] = 0.5;
-  const std::vector<double> less = volume_weights(rest, test::nearest(rest, r), material, volume_share);
+  const std::vector<double> less =
+      volume_weights(rest, test::nearest(rest, r), material, volume_share);
   EXPECT_LT(sum(less), sum(volume_share) * (1 + 1e-12));
   EXPECT_GT(sum(less), 0.97 * sum(volume_share));
 }

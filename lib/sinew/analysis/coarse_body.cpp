@@ -124,8 +124,8 @@ Body coarse_body(const Body& body, int times) {
   coarse.material.mass = body.material.mass * static_cast<double>(body.rest.size()) /
                          static_cast<double>(coarse.rest.size());
   coarse.neighbors = neighbors_of(coarse);
-  coarse.factors = bond_factors(coarse.rest, *coarse.neighbors, coarse.material, coarse.volume_share,
-                                coarse.stiffness, coarse.local.volume);
+  coarse.factors = bond_factors(coarse.rest, *coarse.neighbors, coarse.material,
+                                coarse.volume_share, coarse.stiffness, coarse.local.volume);
   return coarse;
 }
 

@@ -54,8 +54,8 @@ Body part_of(const Body& body, const std::vector<std::size_t>& places) {
     if (!body.local.volume.empty()) part.local.volume.push_back(body.local.volume[i]);
   }
   part.neighbors = neighbors_of(part);
-  part.factors = bond_factors(part.rest, *part.neighbors, part.material, part.volume_share, part.stiffness,
-                              part.local.volume);
+  part.factors = bond_factors(part.rest, *part.neighbors, part.material, part.volume_share,
+                              part.stiffness, part.local.volume);
   return part;
 }
 

@@ -232,8 +232,8 @@ BondFactors::Row BondFactors::of(std::uint32_t id) const {
 }
 
 BondFactors bond_factors(const Points& rest, const RestNeighbors& near, const Material& material,
-                         const std::vector<double>& volume_share, const std::vector<double>& stiffness,
-                         const std::vector<double>& volume) {
+                         const std::vector<double>& volume_share,
+                         const std::vector<double>& stiffness, const std::vector<double>& volume) {
   BondFactors factors;
   if (material.bond.second > 0)
     factors = SurfaceBonds(rest, near, material, volume_share, stiffness).factors();

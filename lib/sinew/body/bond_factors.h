@@ -5,8 +5,8 @@
 // all 18 are, times the particle's volume share: the sum of k l^2 n n n n over its bonds is
 // that of the isotropic packing. A bond has the mean of what its two particles ask for.
 //
-//     body.factors = bond_factors(body.rest, *neighbors_of(body), body.material, body.volume_share);
-//     const double factor = body.factors.of(id).at(neighbor);
+//     body.factors = bond_factors(body.rest, *neighbors_of(body), body.material,
+//     body.volume_share); const double factor = body.factors.of(id).at(neighbor);
 #pragma once
 
 #include <cstdint>
@@ -48,11 +48,12 @@ struct BondFactors {
   Row of(std::uint32_t id) const;
 };
 
-/// Finds the factors of particles at `rest` (m) with the neighbors `near`. `volume_share`: the volume of
-/// the body around each particle over that of one inside; `stiffness`: that of the material there
-/// over the body's, of which a bond has the harmonic mean, as springs in series; empty: 1 each.
-/// `volume`: K_v there, Pa; empty: the material's. In parallel, the same for any number of threads.
-/// None without bonds of second neighbors, but for the weights of volumes that are kept.
+/// Finds the factors of particles at `rest` (m) with the neighbors `near`. `volume_share`: the
+/// volume of the body around each particle over that of one inside; `stiffness`: that of the
+/// material there over the body's, of which a bond has the harmonic mean, as springs in series;
+/// empty: 1 each. `volume`: K_v there, Pa; empty: the material's. In parallel, the same for any
+/// number of threads. None without bonds of second neighbors, but for the weights of volumes that
+/// are kept.
 BondFactors bond_factors(const Points& rest, const RestNeighbors& near, const Material& material,
                          const std::vector<double>& volume_share,
                          const std::vector<double>& stiffness = {},

@@ -96,7 +96,8 @@ double max_volume_weight(const Material& material) {
 }
 
 std::vector<double> volume_weights(const Points& rest, const NeighborLists& nearest,
-                                   const Material& material, const std::vector<double>& volume_share) {
+                                   const Material& material,
+                                   const std::vector<double>& volume_share) {
   Spreading spreading(rest, nearest, material.pair.r, volume_share);
   if (material.bond.second > 0)
     for (int pass = 0; pass < passes; ++pass) spreading.spread(max_volume_weight(material));

@@ -11,7 +11,8 @@
 //   the same, where none takes over        0.894, 0.946, 0.965
 //   bonds alone, of a ratio of 0.25        0.950, 0.979, 0.988
 //
-//     const std::vector<double> weights = volume_weights(rest, near.nearest, material, volume_share);
+//     const std::vector<double> weights = volume_weights(rest, near.nearest, material,
+//     volume_share);
 #pragma once
 
 #include <vector>
@@ -33,9 +34,10 @@ std::vector<double> own_volume_weights(const Points& rest, const NeighborLists& 
 /// as short a step as modes at surfaces do anyway.
 double max_volume_weight(const Material& material);
 
-/// Returns the weights of particles at `rest` (m) with their nearest neighbors, and `volume_share` as in
-/// bond_factors(). Where second neighbors have no bonds, none takes over.
+/// Returns the weights of particles at `rest` (m) with their nearest neighbors, and `volume_share`
+/// as in bond_factors(). Where second neighbors have no bonds, none takes over.
 std::vector<double> volume_weights(const Points& rest, const NeighborLists& nearest,
-                                   const Material& material, const std::vector<double>& volume_share);
+                                   const Material& material,
+                                   const std::vector<double>& volume_share);
 
 }  // namespace sinew

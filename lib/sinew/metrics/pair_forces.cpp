@@ -118,7 +118,7 @@ Mat3 virial_stress(const RestBody& rest, const FrameState& state,
     sum += virial(rest.law.force(d), other.apart, d);
   }
   const std::vector<double>& shares = rest.stiffness().volume_share;
-  const double volume_share = shares.empty() ? 1 : volume_shares[i];
+  const double volume_share = shares.empty() ? 1 : shares[i];
   if (!(volume_share > 0)) return Mat3::Constant(not_measured);
   const Mat3 passive = sum / (2 * volume_per_particle(rest.radius));
   const Mat3 stress = (passive + volume_stress(rest, state, i, severed)) / volume_share;

@@ -127,7 +127,7 @@ std::vector<double> volume_shares_by_stiffness(const RestBody& body, const Local
     for (std::size_t i = 0; i < lists.size(); ++i)
       for (const std::uint32_t j : lists.of(i))
         volume_shares[i] += local.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
-                     (body.shape.points[i] - body.shape.points[j]).squaredNorm();
+                            (body.shape.points[i] - body.shape.points[j]).squaredNorm();
   };
   add(body.shape.neighbors, k);
   add(body.second, second);

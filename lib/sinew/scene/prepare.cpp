@@ -149,9 +149,10 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.lattice = lattice_axes(settings.body);
   body.volume_share = std::move(local.volume_share);
   body.stiffness = std::move(local.stiffness);
-  set_local_materials(settings, ParticleParts(settings, body, files.surface, local.component), body);
-  body.factors = bond_factors(body.rest, *body.neighbors, body.material, body.volume_share, body.stiffness,
-                              body.local.volume);
+  set_local_materials(settings, ParticleParts(settings, body, files.surface, local.component),
+                      body);
+  body.factors = bond_factors(body.rest, *body.neighbors, body.material, body.volume_share,
+                              body.stiffness, body.local.volume);
   body.factors.stiffest = std::max(body.factors.stiffest, stiffest_volume(body));
   set_damping_ratio(settings, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);

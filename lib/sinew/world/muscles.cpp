@@ -208,7 +208,8 @@ std::vector<MuscleWeight> weights_bound_to(int bone, const Binding& binding) {
   return weights;
 }
 
-Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles, std::span<const double> volume_share) {
+Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles,
+                     std::span<const double> volume_share) {
   for (Muscle& muscle : muscles) {
     check_muscle(muscle, rest.points.size());
     muscle.direction.normalize();
@@ -224,7 +225,7 @@ Muscles make_muscles(RestShape rest, std::vector<Muscle> muscles, std::span<cons
 Muscles make_muscles(Points rest, double radius, std::vector<Muscle> muscles,
                      std::span<const double> volume_share) {
   return make_muscles(rest_shape(std::move(rest), rest_neighbor_range(radius)), std::move(muscles),
-                      share);
+                      volume_share);
 }
 
 Activations activations_at(const Muscles& muscles, double time) {

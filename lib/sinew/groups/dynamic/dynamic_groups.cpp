@@ -110,7 +110,7 @@ DynamicGroups::DynamicGroups(std::shared_ptr<const Body> body, Motion motion, do
       motion_(std::move(motion)),
       options_(options),
       max_constraint_(options.tolerance * body_->material.pair.r * stiffness_of_place *
-                body_->material.stiffness() / mass),
+                      body_->material.stiffness() / mass),
       near_(options_.near ? options_.near : neighbors_of(*body_)),
       cell_(body_->rest.size()) {
   const double edge = cell_edge * 2 * body_->material.pair.r;
