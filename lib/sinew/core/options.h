@@ -37,22 +37,22 @@ enum class Axis { x, y, z, minus_x, minus_y, minus_z };
 double meters(LengthUnit unit);
 
 struct BodyOptions {
-  std::string mesh;  ///< a path; relative to the scene's folder until the scene is read
+  std::string mesh = {};  ///< a path; relative to the scene's folder until the scene is read
   LengthUnit unit = LengthUnit::m;
   double scale = 1;
   Axis up = Axis::z;
-  std::optional<Axis> forward;
+  std::optional<Axis> forward = {};
   Vec3 rotation = Vec3::Zero();
   Vec3 offset = Vec3::Zero();
   double weld = 0;
   FillRule rule = FillRule::unite;
   bool close_holes = false;
-  std::optional<double> wrap;
-  std::optional<double> thickness;
-  std::optional<double> radius;
-  std::optional<int> count;
+  std::optional<double> wrap = {};
+  std::optional<double> thickness = {};
+  std::optional<double> radius = {};
+  std::optional<int> count = {};
   Packing packing = Packing::fcc;
-  std::optional<Vec3> lattice_origin;
+  std::optional<Vec3> lattice_origin = {};
   std::optional<Vec3> lattice_rotation = Vec3::Zero();  ///< none: any, by the seed
   int seed = 1;
   Keep keep = Keep::center;
@@ -165,9 +165,9 @@ struct LimitDefinition {
 };
 
 struct BoneDefinition {
-  std::string name;
-  std::string parent;
-  std::optional<Vec3> head;       ///< the parent's tail when not given
+  std::string name = {};
+  std::string parent = {};
+  std::optional<Vec3> head = {};  ///< the parent's tail when not given
   std::optional<Vec3> tail = {};  ///< this or length
   std::optional<double> length = {};
   std::optional<Vec3> direction = {};  ///< with length; the parent's when not given
@@ -197,12 +197,12 @@ struct MotionOptions {
 };
 
 struct KeyDefinition {
-  std::optional<double> time;  ///< this or frame
-  std::optional<double> frame;
-  std::optional<Vec3> axis;
-  std::optional<double> angle;
-  std::optional<Vec3> euler;
-  std::optional<std::array<double, 4>> quaternion;  ///< w, x, y, z
+  std::optional<double> time = {};  ///< this or frame
+  std::optional<double> frame = {};
+  std::optional<Vec3> axis = {};
+  std::optional<double> angle = {};
+  std::optional<Vec3> euler = {};
+  std::optional<std::array<double, 4>> quaternion = {};  ///< w, x, y, z
   double twist = 0;
   Vec3 translation = Vec3::Zero();
   double stretch = 1;

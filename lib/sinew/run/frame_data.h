@@ -60,8 +60,8 @@ class FrameData {
  public:
   /// `output`: which particles and arrays there are; `surface`: the body's skin at rest;
   /// `obstacles`: those of its world, each in its own frame; `probed`: whether measured() is asked
-  /// for. The body must outlive it. Throws bad input for an array that the body has not, and a
-  /// region without particles.
+  /// for. The body must outlive it. Throws bad input for an array that the body has not, a region
+  /// without particles, and a surface without area where arrays are measured.
   FrameData(const OutputSettings& output, const Body& body, const Triangles& surface,
             std::vector<Triangles> obstacles, bool probed = false,
             StrainInFrames strain = StrainInFrames::by_default);
@@ -77,8 +77,8 @@ class FrameData {
   /// Frees the memory of what was taken.
   void forget() { now_ = {}; }
 
-  /// A vertex for each particle, with their arrays and the energies. It refers to this object,
-  /// until the next take(): evaluated() makes it independent.
+  /// A vertex for each particle, with their arrays and the energies, where they were taken. It
+  /// refers to this object, until the next take(): evaluated() makes it independent.
   Dataset particles();
   /// Hands the same to `use` without a copy of the positions.
   void lend_particles(const std::function<void(const Dataset&)>& use);
