@@ -37,22 +37,22 @@ enum class Axis { x, y, z, minus_x, minus_y, minus_z };
 double meters(LengthUnit unit);
 
 struct BodyOptions {
-  std::string mesh;  ///< a path; relative to the scene's folder until the scene is read
+  std::string mesh = {};  ///< a path; relative to the scene's folder until the scene is read
   LengthUnit unit = LengthUnit::m;
   double scale = 1;
   Axis up = Axis::z;
-  std::optional<Axis> forward;
+  std::optional<Axis> forward = {};
   Vec3 rotation = Vec3::Zero();
   Vec3 offset = Vec3::Zero();
   double weld = 0;
   FillRule rule = FillRule::unite;
   bool close_holes = false;
-  std::optional<double> wrap;
-  std::optional<double> thickness;
-  std::optional<double> radius;
-  std::optional<int> count;
+  std::optional<double> wrap = {};
+  std::optional<double> thickness = {};
+  std::optional<double> radius = {};
+  std::optional<int> count = {};
   Packing packing = Packing::fcc;
-  std::optional<Vec3> lattice_origin;
+  std::optional<Vec3> lattice_origin = {};
   std::optional<Vec3> lattice_rotation = Vec3::Zero();  ///< none: any, by the seed
   int seed = 1;
   Keep keep = Keep::center;

@@ -70,7 +70,8 @@ struct FrameScene {
 class FrameData {
  public:
   /// `output`: which particles and arrays there are. The body must outlive it. Throws bad input for
-  /// an array that the body has not, and a region without particles.
+  /// an array that the body has not, a region without particles, and a surface without area where
+  /// arrays are measured.
   FrameData(const OutputSettings& output, const Body& body, const FrameScene& scene,
             StrainInFrames strain = StrainInFrames::by_default);
   /// The same of a scene, which must outlive it.
@@ -85,8 +86,8 @@ class FrameData {
   /// Frees the memory of what was taken.
   void forget() { now_ = {}; }
 
-  /// A vertex for each particle, with their arrays and the energies. It refers to this object,
-  /// until the next take(): evaluated() makes it independent.
+  /// A vertex for each particle, with their arrays and the energies, where they were taken. It
+  /// refers to this object, until the next take(): evaluated() makes it independent.
   Dataset particles();
   /// Hands the same to `use` without a copy of the positions.
   void lend_particles(const std::function<void(const Dataset&)>& use);
