@@ -17,8 +17,8 @@ using namespace groups_test;
 namespace {
 
 constexpr int width = 17, height = 97;
-constexpr DynamicOptions options{{.joint_distance = 0.7, .min_particles = 256}, 0.03};
-constexpr DynamicOptions bending_ones{
+const DynamicOptions options{{.joint_distance = 0.7, .min_particles = 256}, 0.03};
+const DynamicOptions bending_ones{
     {.joint_distance = 0.7, .min_particles = 256, .cubic_distance = 0.5, .min_cubic = 1024}, 0.03};
 // Beyond the time for which the first groups are made.
 constexpr double start = 0.3, bent = 0.4;

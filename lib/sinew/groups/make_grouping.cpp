@@ -42,13 +42,13 @@ bool reaches_far(const Body& body) {
 
 class LayerFinder {
  public:
-  LayerFinder(const Body& body, const std::vector<std::int32_t>& group)
+  LayerFinder(const Body& body, const std::vector<std::int32_t>& group, SharedNeighbors near)
       : body_(body),
         group_(group),
         r_(body.material.pair.r),
         whole_(holds_seconds(body) ? near_sites : nearest_sites),
         by_sites_(supports_cubic_groups(body)),
-        shared_(neighbors_of(body)),
+        shared_(std::move(near)),
         near_(holds_seconds(body) ? shared_->all() : shared_->nearest) {
     if (has_affine_forces(body)) affine_.emplace(body);
   }
@@ -245,10 +245,11 @@ void find_cubic(const Body& body, const std::vector<std::int32_t>& group, std::s
 
 }  // namespace
 
-Grouping make_grouping(const Body& body, std::vector<std::int32_t> group, std::size_t cubic_from) {
+Grouping make_grouping(const Body& body, std::vector<std::int32_t> group, std::size_t cubic_from,
+                       SharedNeighbors near) {
   Grouping made;
   renumber(body, group, made);
-  LayerFinder(body, group).fill(made);
+  LayerFinder(body, group, near ? std::move(near) : neighbors_of(body)).fill(made);
   made.cubic.assign(made.size(), 0);
   if (cubic_from != none_cubic) find_cubic(body, group, cubic_from, made);
   made.group = std::move(group);

@@ -30,9 +30,10 @@ inline constexpr std::size_t none_cubic = std::numeric_limits<std::size_t>::max(
 
 /// Finds the layers of `group` (by particle id; below 0: free), and numbers the groups anew in the
 /// order of their first particles. What is too thin to have an affine motion of its own becomes
-/// free. Groups of `cubic_from` particles and more are cubic, unless they are sheets. In parallel.
+/// free. Groups of `cubic_from` particles and more are cubic, unless they are sheets. `near`: the
+/// neighbors at rest; none: the body's, or searched. In parallel.
 Grouping make_grouping(const Body& body, std::vector<std::int32_t> group,
-                       std::size_t cubic_from = none_cubic);
+                       std::size_t cubic_from = none_cubic, SharedNeighbors near = {});
 
 /// Frees groups that are sheets of a few layers, whose places do not tell cubics apart.
 void free_sheets(const Body& body, std::vector<std::int32_t>& group);

@@ -20,7 +20,9 @@ namespace {
 bool groups_are_built() { return false; }
 bool supports_cubic_groups(const Body&) { return false; }
 void check_groupable(const Body&) { refuse(); }
-Grouping make_grouping(const Body&, std::vector<std::int32_t>, std::size_t) { refuse(); }
+Grouping make_grouping(const Body&, std::vector<std::int32_t>, std::size_t, SharedNeighbors) {
+  refuse();
+}
 Grouping static_groups(const Body&, const std::vector<bool>&, const GroupSizes&) { refuse(); }
 std::vector<bool> moving_joints(const Skeleton&, const Motion&, double) { refuse(); }
 std::vector<std::uint8_t> kept_free(const Body&, const AskedFree&) { refuse(); }

@@ -76,7 +76,8 @@ Needs needs_of(const Prepared& prepared) {
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
   const double reals_of_world = prepared.body.world ? 3 : 0;  // the force of the world
   const double written =
-      particles * written_fraction(output, prepared.body.rest, prepared.body.material.pair.r);
+      particles * written_fraction(output, prepared.body.rest, prepared.body.material.pair.r,
+                                   prepared.body.neighbors);
   const double bond_lines = output.bonds ? written * bonds_of_one(prepared.body) : 0;
   const double reals =
       bond_lines * reals_per_bond +

@@ -74,8 +74,9 @@ std::vector<std::string_view> additional_arrays(const OutputSettings& output, co
   return requested_arrays(words_for_arrays(output, body));
 }
 
-double written_fraction(const OutputSettings& output, const Points& rest, double radius) {
-  const std::size_t chosen = written_particles(output, rest, radius).size();
+double written_fraction(const OutputSettings& output, const Points& rest, double radius,
+                        const SharedNeighbors& near) {
+  const std::size_t chosen = written_particles(output, rest, radius, near).size();
   const double of_particles =
       chosen == 0 ? 1 : static_cast<double>(chosen) / static_cast<double>(rest.size());
   return of_particles / output.every;

@@ -33,6 +33,7 @@ std::string words_asked_for(const OutputSettings& output, const Body& body);
 
 /// The fraction of all frames' numbers per particle that is written, by output.every, output.region
 /// and output.inside_every.
-double written_fraction(const OutputSettings& output, const Points& rest, double radius);
+double written_fraction(const OutputSettings& output, const Points& rest, double radius,
+                        const SharedNeighbors& near = {});
 
 }  // namespace sinew

@@ -340,7 +340,8 @@ void Simulation::enable_dynamic_groups(const DynamicOptions& options) {
   if (!its_->stepper->has_groups())
     throw bad_input("the paper's cells have no groups", "search neighbors by lists");
   check_groupable(*its_->body);
-  move_in(make_grouping(*its_->body, std::vector<std::int32_t>(its_->body->rest.size(), -1)));
+  move_in(make_grouping(*its_->body, std::vector<std::int32_t>(its_->body->rest.size(), -1),
+                        none_cubic, options.near));
   its_->dynamic =
       std::make_unique<DynamicGrouping>(its_->body, *its_->motion, its_->particles.mass, options);
   if (auto made = its_->dynamic->first({its_->steps, time(), its_->stepping.step}, particles()))

@@ -44,6 +44,7 @@ class DynamicGroups {
                 const DynamicOptions& options);
 
   const DynamicOptions& options() const { return options_; }
+  const SharedNeighbors& neighbors() const { return near_; }
   /// The cell of each particle, by id.
   const std::vector<std::int32_t>& cells() const { return cell_; }
   std::size_t cell_count() const { return count_; }

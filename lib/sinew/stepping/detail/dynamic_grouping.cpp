@@ -79,7 +79,8 @@ void DynamicGrouping::took(NewGroups made, double lost) {
 
 Grouping DynamicGrouping::grouping_of(std::vector<std::int32_t> group) const {
   if (group.size() != body_->rest.size()) throw not_a_state("it has no groups");
-  return make_grouping(*body_, std::move(group), groups_.options().sizes.cubic_from());
+  return make_grouping(*body_, std::move(group), groups_.options().sizes.cubic_from(),
+                       groups_.neighbors());
 }
 
 void DynamicGrouping::restore(const RegroupingState& state) {
