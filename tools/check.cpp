@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <sinew/analysis/elastic_modes.h>
-#include <sinew/analysis/rest_stability.h>
 #include <sinew/analysis/time_step.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
@@ -14,6 +13,7 @@
 #include <sinew/scene/check.h>
 #include <sinew/scene/groups.h>
 #include <sinew/scene/prepare.h>
+#include <sinew/scene/rest_trial.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/warnings.h>
@@ -106,10 +106,18 @@ void add_material(const Material& material, Results& results) {
   results.add("contact_stiffness", k, "N/m");
   results.add("tension_stiffness", pair.tension_stiffness(), "N/m");
   results.add("lambda", pair.lambda());
-  results.add("rest", rests_stably(material) ? "stable" : "unstable");
   const double density = material.mass / volume_per_particle(pair.r);
   results.add("wave_speed_100", std::sqrt(material.constants().C11 / density), "m/s");
   results.add("shear_wave_speed_100", std::sqrt(material.constants().C44 / density), "m/s");
+}
+
+void add_rest(const RestTrial& trial, Results& results) {
+  results.add_line("rest", text_of(trial));
+  results.add_value("rest", name_of(trial.state));
+  if (trial.particles == 0) return;
+  results.add("rest_shift", trial.shift, "radii");
+  results.add("rest_time", trial.time, "s");
+  results.add("rest_particles", trial.particles);
 }
 
 /// Adds results of each bone, and of that along which the body is softest against what was asked
@@ -244,6 +252,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   Results results;
   add_sizes(prepared, results);
   add_material(prepared.body.material, results);
+  add_rest(try_rest(prepared), results);
   add_modes(prepared.body, results);
   add_planes(prepared.body, results);
   if (prepared.load_steps)

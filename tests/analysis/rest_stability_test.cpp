@@ -4,52 +4,49 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "support/world.h"
-
 namespace sinew::rest_stability_test {
 
-Material material_with(double a, double b, MaterialModel model = MaterialModel::paper) {
-  Settings settings = test::box_scene();
-  settings.material.a = a;
-  settings.material.b = b;
-  settings.material.model = model;
-  return test::material_of(settings);
+/// Eq. 1 with k = 1 N/m.
+PairForce law(double lambda, double b, double r = 0.01) {
+  PairForce pair;
+  pair.r = r, pair.a = 2 * r, pair.b = b * r;
+  pair.k1 = 1 / (4 * r);
+  pair.k2 = lambda / (pair.b - pair.a);
+  return pair;
 }
 
-class Packings : public testing::TestWithParam<Packing> {};
-INSTANTIATE_TEST_SUITE_P(Both, Packings, testing::Values(Packing::fcc, Packing::hcp));
+const double literal = 2 * std::sqrt(2.0);
 
-TEST_P(Packings, RestBelowTheSecondNeighbors) {
-  for (const double b : {2.2, 2.6, 2.75})
-    EXPECT_GT(min_rise(material_with(2, b), GetParam()), 0.1) << b;
+TEST(BainPath, RisesFirstWhereSecondNeighborsDoNotPull) {
+  for (const double lambda : {0.05, 1.0})
+    for (const double b : {2.2, 2.6, 2.75}) EXPECT_GT(bain_path(law(lambda, b)).barrier(), 2e-5);
 }
 
-TEST_P(Packings, CollapseWhereSecondNeighborsPull) {
-  for (const double b : {2.8284, 2 * std::sqrt(2.0), 2.84, 3.0})
-    EXPECT_LT(min_rise(material_with(2, b), GetParam()), -0.1) << b;
+TEST(BainPath, FallsFromTheStartWithTheLiteralRangeTheMoreTheLargerLambda) {
+  double before = 0;
+  for (const double lambda : {0.02, 0.05, 0.2, 1.0}) {
+    const BainPath path = bain_path(law(lambda, literal));
+    EXPECT_LT(path.barrier(), 0.02 * path.fall()) << lambda;
+    EXPECT_GT(path.fall(), 1.5 * before) << lambda;
+    before = path.fall();
+  }
 }
 
-TEST_P(Packings, SwellWhereNothingPulls) {
-  EXPECT_LE(min_rise(material_with(2.1, 2.7), GetParam()), 1e-6);
+/// Six neighbors come from 2 sqrt(2) r into the range, four leave it: with contacts that are stiff
+/// beside the attraction, BCC has its 8 neighbors at 2 r and 6 at 4 r / sqrt(3).
+TEST(BainPath, EndsWithTheEnergyOfTheBonds) {
+  const PairForce pair = law(1e-4, literal);
+  const double k_r2 = pair.contact_stiffness() * pair.r * pair.r;
+  const double fcc = 6 * pair.potential(2 * pair.r);  // half of 12
+  const double bcc =
+      4 * pair.potential(2 * pair.r) + 3 * pair.potential(4 / std::sqrt(3.0) * pair.r);
+  EXPECT_NEAR(bain_path(pair).fall(), (fcc - bcc) / k_r2, 2e-3 * (fcc - bcc) / k_r2);
 }
 
-TEST_P(Packings, RestWithBonds) {
-  for (const double b : {2.6, 2.8284})
-    for (const auto model : {MaterialModel::bonded, MaterialModel::bonded_volume})
-      EXPECT_GT(min_rise(material_with(2, b, model), GetParam()), 0.1);
-}
-
-TEST_P(Packings, RiseTheSameForAnySize) {
-  Settings settings = test::box_scene();
-  const double one = min_rise(test::material_of(settings), GetParam());
-  settings.body.radius = 0.001;
-  EXPECT_NEAR(min_rise(test::material_of(settings), GetParam()), one, 1e-5 * one);
-}
-
-TEST(RestStability, ChecksBothPackings) {
-  EXPECT_TRUE(rests_stably(material_with(2, 2.6)));
-  EXPECT_FALSE(rests_stably(material_with(2, 2 * std::sqrt(2.0))));
-  EXPECT_FALSE(rests_stably(material_with(2.1, 2.7)));
+TEST(BainPath, IsTheSameForAnySize) {
+  const BainPath one = bain_path(law(1, literal)), other = bain_path(law(1, literal, 1e-3));
+  for (std::size_t n = 0; n < one.energy.size(); ++n)
+    EXPECT_NEAR(one.energy[n], other.energy[n], 1e-9);
 }
 
 }  // namespace sinew::rest_stability_test

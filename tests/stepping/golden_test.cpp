@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <sinew/analysis/elastic_modes.h>
-#include <sinew/analysis/rest_stability.h>
 #include <sinew/analysis/time_step.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
@@ -280,12 +279,6 @@ TEST(Golden, ConstantsAreWhatTheyWere) {
         text += row("limit", {limit, step_limit(integrator, body.material, body.springs, {500, 20}),
                               step_limit(integrator, body.material, {})});
       }
-  for (const double b : {2.3, 2.6, 2.9}) {
-    Settings settings = test::box_scene(height);
-    settings.material.b = b;
-    const Material material = test::material_of(settings);
-    text += row("rest", {min_rise(material, Packing::fcc), min_rise(material, Packing::hcp)});
-  }
   test::expect_golden("stepping/golden/constants.csv", text);
 }
 

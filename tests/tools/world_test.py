@@ -140,10 +140,16 @@ class World(unittest.TestCase):
             done = sinew("check", self.scene(SCENE.replace(old, new)), check=2)
             self.assertRegex(done.stderr, r"world.yaml:\d+:\d+: .*" + re.escape(said))
 
-    def test_the_literal_paper_is_unstable_at_rest(self):
-        done = sinew("check", SOURCE / "configs/paper_literal.yaml", "--set", "body.radius=0.02")
-        self.assertIn("rest: unstable", done.stdout)
-        self.assertIn("second neighbors", done.stderr)
+    def rest(self, *values):
+        done = sinew("check", SOURCE / "configs/paper_literal.yaml", "--json", "--set", *values)
+        return json.loads(done.stdout)["rest"], done.stderr
+
+    def test_the_literal_range_holds_or_collapses_by_lambda(self):
+        for size, lam, state in [(0.010, 0.05, "stable"), (0.010, 0.2, "creeps"), (0.010, 1, "unstable"),
+                                 (0.006, 1, "unstable"), (0.006, 0.02, "stable")]:  # by fewer particles
+            found, warned = self.rest(f"body.radius={size}", f"material.lambda={lam}")
+            self.assertEqual(found, state, (size, lam))
+            self.assertEqual("second neighbors" in warned, lam > 0.1)
 
     def strangers(self, cohesion):
         """Pairs of neighbors that were none at rest, frame by frame, while two fingers part."""

@@ -1,26 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a packing keeps its shape at rest under a law of force: small strains must raise the
-// energy of a free cluster.
+// Why a packing keeps its shape under the paper's law, or does not: its energy along Bain's path,
+// on which FCC becomes BCC as one cube axis shortens. FCC has 12 neighbors at 2 r, and six second
+// ones at 2 sqrt(2) r; BCC has 8 and, only 1.15 times as far, six. From b = 2 sqrt(2) r on the
+// second neighbors pull, and the more the nearer they come: the energy falls from the start. How
+// much it falls is a matter of lambda: with lambda 0.05 by 0.0005 k r^2 per particle, which bones
+// hold, with lambda 1 by 0.05 k r^2, and the body collapses.
 //
-// A ball of radius 5 r is strained at random, as a whole and particle by particle, by 1e-3 to 1e-2.
-// A law fails where further neighbors come into range and pull with a decreasing force, as the
-// second neighbors at 2 sqrt(2) r do from that b on, or where stretched pairs do not pull at all (a
-// above 2 r). Strains, not the stiffness at rest, because the slope of eq. 1 is discontinuous where
-// its range ends.
-//
-//     const bool stable = rests_stably(material);
+//     const BainPath path = bain_path(material.pair);
+//     const bool falls = path.barrier() < path.fall();
 #pragma once
 
-#include <sinew/core/options.h>
-#include <sinew/material/material.h>
+#include <vector>
+
+#include <sinew/material/pair_force.h>
 
 namespace sinew {
 
-/// The least rise of the cluster's energy by a strain, per particle, over k (strain r)^2 / 2; below
-/// 0 the packing collapses or swells.
-double min_rise(const Material& material, Packing packing);
+/// Energies along the path, at the volume where each is least.
+struct BainPath {
+  /// Of a particle, less that of FCC, over k r^2, k the contact stiffness; at even steps of c/a
+  /// from sqrt(2), FCC, to 1, BCC.
+  std::vector<double> energy;
 
-/// Whether FCC and HCP are stable at rest.
-bool rests_stably(const Material& material);
+  /// Returns how far it rises on the way.
+  double barrier() const;
+  /// Returns how far it is below that of FCC at the end; below 0: above.
+  double fall() const { return -energy.back(); }
+};
+
+BainPath bain_path(const PairForce& pair, int steps = 40);
+
+/// Whether second neighbors come into the range where a body is strained. Up to b = 2.75 r bodies
+/// kept their shape with every lambda from 0.02 to 10.
+inline bool second_neighbors_may_pull(const PairForce& pair) {
+  return pair.b > 2.75 * pair.r * (1 + 1e-9);
+}
 
 }  // namespace sinew

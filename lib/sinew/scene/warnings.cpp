@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include <sinew/analysis/rest_stability.h>
 #include <sinew/body/grouping.h>
 #include <sinew/body/solid.h>
 #include <sinew/core/text.h>
@@ -32,8 +33,10 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-// Beyond this the second neighbors, at 2.83 r, weaken the packing at rest: noise grows.
-constexpr double largest_stable_b = 2.75;
+// Fall of energy from FCC to BCC beyond which bodies crept, and the barrier before it, over the
+// fall, that kept them (rest_stability.h): of 64 trials with b from 2.75 to 2.9 radii and lambda
+// from 0.02 to 2, these let all pass that kept their shape but three, and none that did not.
+constexpr double largest_fall = 0.9e-3, smallest_barrier = 0.055;
 constexpr double fastest_bone =
     0.5;  // radii per step: faster bones pass neighbors instead of pushing them
 constexpr double largest_miss = 0.1;   // of a modulus
@@ -44,10 +47,17 @@ constexpr double far_from_bone = 3;
 constexpr double steepest_joint = 5;  // degrees between two planes: more breaks bonds
 
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
-  if (pair.b > largest_stable_b * pair.r)
-    warnings.push_back("b is " + three_digits(pair.b / pair.r) +
-                       " radii: second neighbors at 2.83 weaken the packing until it collapses by "
-                       "itself; set material.b to 2.75 or less");
+  if (second_neighbors_may_pull(pair)) {
+    const BainPath path = bain_path(pair);
+    if (path.fall() > largest_fall && path.barrier() < smallest_barrier * path.fall())
+      warnings.push_back("b is " + three_digits(pair.b / pair.r) + " radii, and lambda " +
+                         three_digits(pair.lambda()) +
+                         ": second neighbors pull, the energy falls by " +
+                         three_digits(path.fall()) +
+                         " k r^2 per particle from FCC to BCC, and the body may creep or collapse "
+                         "at rest, which sinew check tries; set material.lambda to 0.05 or less, "
+                         "or material.b to 2.75");
+  }
   if (pair.a > 2 * pair.r * (1 + 1e-9))
     warnings.push_back("a is " + three_digits(pair.a / pair.r) +
                        " radii: between 2 and a neighbors do not pull and a free body swells; set "
