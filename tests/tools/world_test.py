@@ -8,6 +8,7 @@ import csv
 import functools
 import json
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -150,6 +151,11 @@ class World(unittest.TestCase):
             found, warned = self.rest(f"body.radius={size}", f"material.lambda={lam}")
             self.assertEqual(found, state, (size, lam))
             self.assertEqual("second neighbors" in warned, lam > 0.1)
+
+    def test_check_says_of_rest_what_runs_show(self):
+        done = subprocess.run([sys.executable, SOURCE / "tests/campaigns/rest.py", small_run.BIN, SOURCE, "6", "3"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def strangers(self, cohesion):
         """Pairs of neighbors that were none at rest, frame by frame, while two fingers part."""
