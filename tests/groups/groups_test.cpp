@@ -6,6 +6,8 @@
 #include <sinew/body/grouping.h>
 #include <sinew/core/parallel.h>
 #include <sinew/groups/cubic/quadrature.h>
+#include <sinew/kernel/kernel.h>
+#include <sinew/material/laws.h>
 
 #include "support/expect_error.h"
 #include "support/grouped_bar.h"
@@ -388,6 +390,15 @@ TEST(Quadrature, OfAPartOfAGroupIsASmallSample) {
     }
     EXPECT_LT(all.norm(), 1e-9 * static_cast<double>(blocks.size()));
   }
+}
+
+TEST(Groups, RefuseALawThatAProgramBrings) {
+  Bar bar = bar_of(scene_of(MaterialModel::bonded), 9, 17);
+  const kernel::OwnLaw steps{};
+  ForceLaw law = law_of(bar.body.material);
+  law.name = "mine", law.kernel = &steps;
+  bar.body.material.law = &law;
+  test::expect_bad_input([&] { check_groupable(bar.body); }, {"springs alone", "mine"});
 }
 
 }  // namespace sinew::groups_test

@@ -282,6 +282,10 @@ bool supports_cubic_groups(const Body& body) {
 }
 
 void check_groupable(const Body& body) {
+  if (law_of(body.material).kernel != nullptr)
+    throw bad_input("groups know the bonds of springs alone, and not those of " +
+                        std::string(law_of(body.material).name),
+                    "set hierarchy.enabled to false");
   if (bonds_change(body.material))
     throw bad_input("bonds that break, flow or relax remember more than groups do",
                     "remove breaking_strain, fracture_energy, yield_strain, relaxation_shares and "

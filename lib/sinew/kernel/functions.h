@@ -2,6 +2,8 @@
 // The kernel's functions for the instruction set of the source file that includes this.
 #pragma once
 
+#include <utility>
+
 #include <sinew/kernel/group_motion.h>
 #include <sinew/kernel/listing.h>
 #include <sinew/kernel/moments.h>
@@ -59,6 +61,12 @@ constexpr LawFunctions<typename L::Real> functions_of_law() {
            flushed<L, probe_pieces<L, pairs, forces_pairwise>>}};
 }
 
+template <class L, int... pairs>
+constexpr void add_laws(Functions<typename L::Real>& functions,
+                        std::integer_sequence<int, pairs...>) {
+  ((functions.law[pairs] = functions_of_law<L, PairLaw{pairs}>()), ...);
+}
+
 template <class L, Motions motions, int terms>
 constexpr void add_groups(Functions<typename L::Real>& functions) {
   functions.put[motions] = put_group<lanes::Doubles, typename L::Real, terms>;
@@ -76,10 +84,7 @@ constexpr Functions<typename L::Real> functions() {
   add_groups<L, cubic, cubic_terms>(all);
   all.pull_bonds = pull_group_bonds<lanes::Doubles, square_terms>;
   all.pull_ends = pull_group_bonds<lanes::Doubles, cubic_terms>;
-  all.law[between_all] = functions_of_law<L, between_all>();
-  all.law[among_neighbors] = functions_of_law<L, among_neighbors>();
-  all.law[springs] = functions_of_law<L, springs>();
-  all.law[changing_springs] = functions_of_law<L, changing_springs>();
+  add_laws<L>(all, std::make_integer_sequence<int, pair_laws>());
   all.kept = kept_forces<L> * sizeof(Forces<L>);
   all.bound = bound_piece<lanes::Floats, typename L::Real>;
   all.list = list_two<lanes::Floats, typename L::Real>;

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double duration = 10, interval = 0.5;  // s
 constexpr double nudge = 3, nudge_time = 0.3;    // degrees; s there, and again back
-constexpr std::size_t max_particles = 4000;
+constexpr std::size_t max_tried_particles = 4000;
 constexpr int fewer_particles = 3000;
-constexpr std::int64_t max_steps = 400'000;  // of stiff bodies, which are tried for less time
+constexpr std::int64_t max_trial_steps = 400'000;  // of stiff bodies, which are tried for less time
 
 /// A bone's turn about an axis across it: y, if it does not lie along y.
 TrackDefinition nudge_of(const Bone& bone) {
@@ -56,7 +56,7 @@ Settings scene_of_trial(const Prepared& prepared) {
 Prepared trial_of(const Prepared& prepared) {
   Scene scene{scene_of_trial(prepared)};
   scene.with_surface = false;
-  if (prepared.body.rest.size() <= max_particles) {
+  if (prepared.body.rest.size() <= max_tried_particles) {
     scene.filled = prepared.filled;
     return prepare(std::move(scene));
   }
@@ -96,7 +96,7 @@ RestTrial tried(Simulation simulation, std::int64_t steps) {
   RestTrial trial;
   trial.particles = simulation.body().rest.size();
   try {
-    simulation.advance(std::min(steps, max_steps));
+    simulation.advance(std::min(steps, max_trial_steps));
     trial.shift = shift_of(simulation);
     trial.state = state_of(trial.shift);
   } catch (const Error& error) {
