@@ -34,7 +34,7 @@ double energy_of(const PairForce& pair, const std::vector<Vec3>& sites, double a
 }
 
 /// Searches the least over `a`, first in steps and then between them.
-double least_energy(const PairForce& pair, const std::vector<Vec3>& sites, double ratio) {
+double min_energy(const PairForce& pair, const std::vector<Vec3>& sites, double ratio) {
   constexpr int scans = 100, halvings = 40;
   const double low = 1.7 * pair.r, step = 0.9 * pair.r / scans;
   double best = low, least = std::numeric_limits<double>::infinity();
@@ -58,7 +58,7 @@ BainPath bain_path(const PairForce& pair, int steps) {
   double at_fcc = 0;
   for (int n = 0; n <= steps; ++n) {
     const double ratio = std::numbers::sqrt2 + (1 - std::numbers::sqrt2) * n / steps;
-    const double energy = least_energy(pair, sites, ratio);
+    const double energy = min_energy(pair, sites, ratio);
     if (n == 0) at_fcc = energy;
     path.energy.push_back((energy - at_fcc) / unit);
   }

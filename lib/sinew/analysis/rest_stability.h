@@ -18,8 +18,8 @@ namespace sinew {
 
 /// Energies along the path, at the volume where each is least.
 struct BainPath {
-  /// Of a particle, less that of FCC, over k r^2, k the contact stiffness; at even steps of c/a
-  /// from sqrt(2), FCC, to 1, BCC.
+  /// Energies of a particle, less that of FCC, over k r^2, k the contact stiffness; at even steps
+  /// of c/a from sqrt(2), FCC, to 1, BCC.
   std::vector<double> energy;
 
   /// Returns how far it rises on the way.

@@ -131,10 +131,11 @@ std::vector<Field<Settings>> make_material() {
                not_negative),
       field<S>("material", "a", SINEW_AT(S, material.a), "radii",
                "distance at which attraction begins", {2, inf}),
-      field<S>("material", "b", SINEW_AT(S, material.b), "radii",
-               "distance at which attraction ends; above 2.75 second neighbors pull, and lambda decides "
-               "whether the body holds (0.05 does)",
-               {2, 8, true}),
+      field<S>(
+          "material", "b", SINEW_AT(S, material.b), "radii",
+          "distance at which attraction ends; above 2.75 second neighbors pull, and lambda decides "
+          "whether the body holds (0.05 does)",
+          {2, 8, true}),
   };
 }
 
