@@ -70,7 +70,8 @@ def triples(count, seed):
 
 
 def main():
-    sinew, source = Path(sys.argv[1]) / "sinew", sys.argv[2]
+    sinew, source = (Path(word).resolve() for word in sys.argv[1:3])
+    sinew /= "sinew"
     count, seed = (int(word) for word in [*sys.argv[3:], *"50 1".split()[len(sys.argv) - 3:]])
     wrong = 0
     print("| lambda | a | b | check | run, radii | |\n|---|---|---|---|---|---|")
