@@ -169,6 +169,22 @@ TEST(StepLimit, ThereIsNoneForExplicitEulerWithoutDamping) {
   EXPECT_EQ(limit_of(undamped_bones, bar()), 0);
 }
 
+/// A particle on its bone: |1 + i w step| per step is exp(w^2 step time / 2) in all.
+TEST(StepLimit, OfExplicitEulerWithoutDampingLetsMotionsGrowByE) {
+  Settings settings = test::box_scene(25);
+  settings.solver.integrator = Integrator::explicit_euler;
+  settings.binding.bone_damping = 0;
+  Body body = test::make_body(settings, {{0.05, 0, 0.1}});
+  const double duration = 1000, w2 = body.springs[0].stiffest() / body.material.mass;
+  const double step = explicit_step_for(body, {}, duration);
+  EXPECT_NEAR(std::pow(1 + w2 * step * step, duration / step / 2), std::exp(1.0), 1e-3);
+  body.springs.clear();
+  body.material.damping = 0;  // now the packing grows, whose w^2 is 8 k / m, and 9 at surfaces
+  const double w2_of_packing = 8 * body.material.stiffness() / body.material.mass;
+  EXPECT_NEAR(explicit_step_for(body, {}, duration), 2 / (w2_of_packing * duration),
+              0.15 * 2 / (w2_of_packing * duration));
+}
+
 TEST(ChooseStep, DividesTheFrameExactlyAndIsNeverLonger) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(1e-3, 1);

@@ -86,6 +86,22 @@ double explicit_limit(const Material& material, const std::vector<BoneSprings>& 
 
 }  // namespace
 
+double explicit_step_for(const Body& body, const WorldLoad& world, double duration) {
+  const Material material = lightest(body);
+  double limit = std::numeric_limits<double>::infinity(), undamped = world.stiffness;  // N/m
+  for (const BoneSprings& bone : body.springs)
+    if (bone.damping > 0)
+      limit = std::min(limit, bone.damping / bone.stiffest());
+    else
+      undamped = std::max(undamped, bone.stiffest());
+  if (material.damping > 0)
+    limit = std::min(limit, explicit_limit(material, {}, {}, body.factors.stiffest));
+  else
+    for (const Mode& mode : worst_modes(material, body.factors.stiffest))
+      undamped = std::max(undamped, mode.w2 * material.stiffness());
+  return undamped > 0 ? std::min(limit, 2 * material.mass / (undamped * duration)) : limit;
+}
+
 double stiffest_volume(const Body& body) {
   const Material& material = body.material;
   const PackingStiffness packing = material.packing();

@@ -64,4 +64,9 @@ double power_step_limit(const Body& body, const WorldLoad& world = {});
 /// particles with equal stiffness in contact and tension; otherwise by the closed forms.
 double step_limit(Integrator integrator, const Body& body, const WorldLoad& world = {});
 
+/// The longest step of explicit Euler for so many seconds where something is not damped, as the
+/// paper's bones are not: such a motion of frequency w grows by exp(w^2 step time / 2), here by a
+/// factor of e until the end. s.
+double explicit_step_for(const Body& body, const WorldLoad& world, double duration);
+
 }  // namespace sinew

@@ -34,8 +34,15 @@ StepChoice relaxing_steps(double limit) {
 
 }  // namespace
 
+bool grows(const Settings& settings, const Body& body) {
+  return settings.solver.integrator == Integrator::explicit_euler &&
+         !(step_limit(Integrator::explicit_euler, body, load_of(body)) > 0);
+}
+
 StepChoice steps_of(const Settings& settings, const Body& body) {
-  const double limit = step_limit(settings.solver.integrator, body, load_of(body));
+  double limit = step_limit(settings.solver.integrator, body, load_of(body));
+  if (grows(settings, body))
+    limit = explicit_step_for(body, load_of(body), settings.solver.duration);
   if (!(limit > 0) && settings.solver.integrator != Integrator::explicit_euler)
     throw bad_input(settings.place("material.density"),
                     "no time step is short enough for particles of " +

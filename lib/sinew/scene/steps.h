@@ -42,6 +42,10 @@ FrameTimes frame_times(const Settings& settings);
 Stepping stepping_of(const SolverSettings& solver, double step);
 StepChoice choose_step(const SolverSettings& solver, double limit, double interval);
 
+/// Whether explicit Euler lets something grow, as it is not damped: its step then goes by the
+/// duration.
+bool grows(const Settings& settings, const Body& body);
+
 /// For a body. Throws bad input, with the scene's line, where no step is stable.
 StepChoice steps_of(const Settings& settings, const Body& body);
 

@@ -303,6 +303,13 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
   if (!law_of(prepared.body.material).has_bonds)
     warn_of_material(prepared.body.material.pair, warnings);
   warn_of_step(prepared.steps, warnings);
+  if (grows(prepared.settings, prepared.body))
+    warnings.push_back(
+        "explicit Euler without damping of bones or material, as the paper prints it, lets every "
+        "vibration grow: with a step of " +
+        three_digits(prepared.steps.limit) + " s by a factor of e within the scene's " +
+        three_digits(prepared.settings.solver.duration) +
+        " s; use symplectic_euler, or give material.damping and binding.bone_damping");
   warn_of_speed(bone_speed, warnings);
   for (const Track& track : prepared.motion.tracks) warn_of_cut(prepared, track, warnings);
   for (std::string& warning : motion_warnings(prepared.body.skeleton, prepared.motion,
