@@ -9,6 +9,7 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/io/vtk/detail/grids.h>
+#include "mesh/shapes.h"
 #include "support/expect_error.h"
 #include "support/scratch.h"
 
@@ -62,13 +63,7 @@ std::string image(int n, const std::function<double(const Vec3&)>& value) {
 
 double ball(const Vec3& at) { return at.norm() - 0.7; }
 
-Triangles triangles_of(const PolygonSoup& soup) {
-  Triangles triangles{soup.points, {}};
-  for (const auto& polygon : soup.polygons)
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      triangles.faces.push_back({polygon[0], polygon[i], polygon[i + 1]});
-  return triangles;
-}
+using shapes::triangles_of;
 
 class VtkMesh : public Scratch {
  protected:

@@ -12,6 +12,15 @@
 
 namespace sinew::shapes {
 
+/// The polygons as fans of triangles.
+inline Triangles triangles_of(const PolygonSoup& soup) {
+  Triangles triangles{soup.points, {}};
+  for (const auto& polygon : soup.polygons)
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+      triangles.faces.push_back({polygon[0], polygon[i], polygon[i + 1]});
+  return triangles;
+}
+
 inline PolygonSoup tetrahedron(double size = 1) {
   return {{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}},
           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};

@@ -65,6 +65,21 @@ TEST(SceneOfArrays, IsReplacedByAnotherRunOfItself) {
   EXPECT_EQ(last_hash(run), before);
 }
 
+TEST(SceneOfArrays, ReplacesNoMeshesOfOthers) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path() / "run/meshes");
+  const auto mine = folder.write("run/meshes/my_bar.ply", "mine");
+  test::expect_bad_input([&] { simulate(scene_of_arrays(), {folder.path() / "run"}); }, {"meshes"});
+  EXPECT_EQ(read_file(mine), "mine");
+}
+
+TEST(SceneOfArrays, HasItsMeshesAmongTheChecksums) {
+  const TempFolder folder;
+  ASSERT_EQ(simulate(scene_of_arrays(), {folder.path() / "run"}).exit, Exit::done);
+  EXPECT_NE(read_file(folder.path() / "run/checksums.sfv").find("meshes/my_bar.ply"),
+            std::string::npos);
+}
+
 TEST(SceneOfArrays, IsReadFromPlyWithTheSameBits) {
   const TempFolder folder;
   PolygonSoup soup = bar;

@@ -152,6 +152,12 @@ class World(unittest.TestCase):
             self.assertEqual(found, state, (size, lam))
             self.assertEqual("second neighbors" in warned, lam > 0.1)
 
+    def test_a_body_whose_scene_knows_no_coarser_one_is_tried_itself(self):
+        done = sinew("check", SOURCE / "configs/paper_literal.yaml", "--json", "--set", "body.radius=0.007",
+                     "binding.explicit=[{bone: upper, center: [0, 0, 0.606], radius: 0.005}]")
+        found = json.loads(done.stdout)
+        self.assertEqual(found["rest_particles"], found["particles"])
+
     def test_check_says_of_rest_what_runs_show(self):
         done = subprocess.run([sys.executable, SOURCE / "tests/campaigns/rest.py", small_run.BIN, SOURCE, "6", "3"],
                               capture_output=True, text=True)

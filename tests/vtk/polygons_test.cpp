@@ -25,18 +25,13 @@
 
 #include <sinew/io/vtk/vtk_mesh.h>
 #include <sinew/repair/read_surface.h>
+#include "mesh/shapes.h"
 #include "support/expect_error.h"
 #include "support/scratch.h"
 
 namespace sinew::vtk_polygons_test {
 
-Triangles triangles_of(const PolygonSoup& soup) {
-  Triangles triangles{soup.points, {}};
-  for (const auto& polygon : soup.polygons)
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      triangles.faces.push_back({polygon[0], polygon[i], polygon[i + 1]});
-  return triangles;
-}
+using shapes::triangles_of;
 
 vtkSmartPointer<vtkPolyData> ball() {
   vtkNew<vtkSphereSource> source;

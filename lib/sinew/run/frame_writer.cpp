@@ -78,7 +78,11 @@ std::vector<Series*> FrameWriter::all_series() {
 
 /// Begins with checksums of kept frames, and of what was written before the frames.
 void FrameWriter::begin_checksums() {
-  std::set<std::string> begun{"body.vtu", "scene.yaml"}, stay = begun;
+  std::set<std::string> begun{"body.vtu", "scene.yaml"};
+  std::error_code none;
+  for (const auto& mesh : std::filesystem::directory_iterator(folder_ / "meshes", none))
+    if (mesh.is_regular_file(none)) begun.insert("meshes/" + mesh.path().filename().string());
+  std::set<std::string> stay = begun;
   for (const Series* series : all_series()) {
     for (const PvdRow& row : series->rows()) stay.insert(row.file);
     listed_.push_back(series->rows().size());

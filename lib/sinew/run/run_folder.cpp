@@ -60,12 +60,14 @@ std::vector<fs::path> files_of_run(const RunFolder& folder) {
   return files;
 }
 
-/// Hidden files and those of a body filled beforehand are no obstacle.
+/// Hidden files and those of a body filled beforehand are no obstacle. Meshes are: a run may write
+/// its own in their place.
 void refuse_others(const RunFolder& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder.path, none)) {
     const std::string name = entry.path().filename().string();
-    const bool part = std::find(run_parts.begin(), run_parts.end(), name) != run_parts.end();
+    const bool part =
+        name != "meshes" && std::find(run_parts.begin(), run_parts.end(), name) != run_parts.end();
     if (name.front() == '.' || name == "body.vtu" || (part && entry.is_directory(none))) continue;
     throw bad_input(Place{folder.path.string()},
                     "holds files that are of no run, " + shown(name) + " for one",

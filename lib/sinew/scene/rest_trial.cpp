@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include <sinew/analysis/rest_stability.h>
@@ -18,7 +19,8 @@ constexpr double duration = 10, interval = 0.5;  // s
 constexpr double nudge = 3, nudge_time = 0.3;    // degrees; s there, and again back
 constexpr std::size_t max_tried_particles = 4000;
 constexpr int fewer_particles = 3000;
-constexpr std::int64_t max_trial_steps = 400'000;  // of stiff bodies, which are tried for less time
+// Steps times particles, some ten seconds: stiff bodies are tried for less time.
+constexpr double max_work = 4e8;
 
 /// A bone's turn about an axis across it: y, if it does not lie along y.
 TrackDefinition nudge_of(const Bone& bone) {
@@ -53,16 +55,26 @@ Settings scene_of_trial(const Prepared& prepared) {
   return scene;
 }
 
-Prepared trial_of(const Prepared& prepared) {
-  Scene scene{scene_of_trial(prepared)};
-  scene.with_surface = false;
-  if (prepared.body.rest.size() <= max_tried_particles) {
-    scene.filled = prepared.filled;
-    return prepare(std::move(scene));
-  }
+/// The same with fewer particles; none where the scene cannot be prepared with them, as where a
+/// region of it holds none.
+std::optional<Prepared> coarse_trial(Scene scene) {
   scene.settings.body.radius.reset();
   scene.settings.body.count = fewer_particles;
   std::erase_if(scene.settings.bound, [](const BoundSettings& bound) { return bound.ids; });
+  try {
+    return prepare(std::move(scene));
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+Prepared trial_of(const Prepared& prepared) {
+  Scene scene{scene_of_trial(prepared)};
+  scene.with_surface = false;
+  scene.law = prepared.body.material.law;
+  if (prepared.body.rest.size() > max_tried_particles)
+    if (std::optional<Prepared> coarse = coarse_trial(scene)) return *std::move(coarse);
+  scene.filled = prepared.filled;
   return prepare(std::move(scene));
 }
 
@@ -96,7 +108,8 @@ RestTrial tried(Simulation simulation, std::int64_t steps) {
   RestTrial trial;
   trial.particles = simulation.body().rest.size();
   try {
-    simulation.advance(std::min(steps, max_trial_steps));
+    const double affordable = max_work / static_cast<double>(trial.particles);
+    simulation.advance(std::min(steps, static_cast<std::int64_t>(affordable) + 1));
     trial.shift = shift_of(simulation);
     trial.state = state_of(trial.shift);
   } catch (const Error& error) {
@@ -125,7 +138,8 @@ const char* name_of(RestState state) {
 
 std::string text_of(const RestTrial& trial) {
   std::string text = name_of(trial.state);
-  if (trial.state == RestState::stable) return text;
+  const bool whole = trial.time > duration - interval;
+  if (trial.state == RestState::stable && (whole || trial.particles == 0)) return text;
   return text + ", " + three_digits(trial.shift) + " radii off after " + three_digits(trial.time) +
          " s of rest";
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether a scene's body keeps its shape at rest, found by trial: without its world, its last bone
 // turns by 3 degrees and back, and the body is left alone for 10 s. Bodies of over 4,000 particles
-// are tried with 3,000.
+// are tried with 3,000, if the scene can be prepared with these.
 //
 //     const RestTrial trial = try_rest(prepared);
 //     results.add("rest", text_of(trial));
@@ -27,7 +27,8 @@ struct RestTrial {
 };
 
 /// Steps the body where second neighbors are within the reach of an attraction: bonds, and shorter
-/// ranges, keep every packing. Takes a second or two.
+/// ranges, keep a packing. Takes a second or two, of stiff bodies some ten: they are tried for less
+/// than 10 s then.
 RestTrial try_rest(const Prepared& prepared);
 
 /// "stable", "creeps" or "unstable".

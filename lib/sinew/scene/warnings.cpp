@@ -35,7 +35,7 @@ using Warnings = std::vector<std::string>;
 
 // Fall of energy from FCC to BCC beyond which bodies crept, and the barrier before it, over the
 // fall, that kept them (rest_stability.h): of 64 trials with b from 2.75 to 2.9 radii and lambda
-// from 0.02 to 2, these let all pass that kept their shape but three, and none that did not.
+// from 0.02 to 2, these let all pass that kept their shape but four, and none that did not.
 constexpr double largest_fall = 0.9e-3, smallest_barrier = 0.055;
 constexpr double fastest_bone =
     0.5;  // radii per step: faster bones pass neighbors instead of pushing them
