@@ -114,8 +114,11 @@ MeasureOptions how_to_measure(const Options& options, const Common& common) {
   MeasureOptions how;
   for (const std::string& text : options.limits) how.limits.push_back(parse_limit(text));
   if (!options.reference.empty()) how.reference = open_surfaces(options.reference);
-  requested_arrays(options.arrays);  // refuses other names before anything is read
-  how.arrays = options.arrays;
+  how.arrays = requested_arrays(options.arrays);
+  if (!how.arrays.stepped.empty() && !how.arrays.all)
+    throw bad_input("a run's files do not give " + std::string(how.arrays.stepped.front()) +
+                        ", which follows from the forces of its moment",
+                    "let the run write it: output.arrays");
   how.ahead = common.threads != 1;
   return how;
 }

@@ -11,10 +11,19 @@ namespace sinew::requested_arrays_test {
 using Names = std::vector<std::string_view>;
 
 TEST(RequestedArrays, AreNamedWithCommasOrSpacesAndComeInTheOrderOfTheTable) {
-  EXPECT_EQ(requested_arrays("stress, J"), (Names{"J", "stress"}));
-  EXPECT_EQ(requested_arrays("  J\tJ stress,"), (Names{"J", "stress"}));
-  EXPECT_EQ(requested_arrays("all").size(), requestable_arrays().size());
-  EXPECT_TRUE(requested_arrays("").empty());
+  EXPECT_EQ(requested_arrays("stress, J").measured, (Names{"J", "stress"}));
+  EXPECT_EQ(requested_arrays("  J\tJ stress,").measured, (Names{"J", "stress"}));
+  EXPECT_EQ(requested_arrays("force_twist J bone_point").stepped,
+            (Names{"bone_point", "force_twist"}));
+  EXPECT_TRUE(requested_arrays("").measured.empty());
+  EXPECT_FALSE(requested_arrays("J").all);
+}
+
+TEST(RequestedArrays, AreAllThereAreByOneWord) {
+  const RequestedArrays all = requested_arrays("all");
+  EXPECT_TRUE(all.all);
+  EXPECT_EQ(all.measured.size(), measured_arrays().size());
+  EXPECT_EQ(all.stepped.size(), stepped_arrays().size());
 }
 
 TEST(RequestedArrays, RefuseOtherNamesAndSuggestTheNearest) {
@@ -31,8 +40,9 @@ TEST(RequestedArrays, RefuseOtherNamesAndSuggestTheNearest) {
 TEST(RequestedArrays, AreAllNamedByTheHelpOfTheSetting) {
   for (const auto& row : settings_table()) {
     if (row.section != "output" || row.name != "arrays") continue;
-    for (const std::string_view name : requestable_arrays())
-      EXPECT_NE(row.help.find(name), std::string_view::npos) << name;
+    for (const auto names : {measured_arrays(), stepped_arrays()})
+      for (const std::string_view name : names)
+        EXPECT_NE(row.help.find(name), std::string_view::npos) << name;
     return;
   }
   FAIL() << "output.arrays is no setting";

@@ -145,7 +145,7 @@ std::string rounded_columns(const std::string& csv) {
 /// Lists the values of every array that can be asked for, at some particles of a frame.
 std::string arrays_text(const Measured& run) {
   std::string out;
-  for (const Column& column : particle_arrays(run.body, run.states[2], requestable_arrays())) {
+  for (const Column& column : particle_arrays(run.body, run.states[2], measured_arrays())) {
     out += column.name;
     const auto some = [&](const auto& values) {
       for (std::size_t i = 0; i < values.size(); i += 61)

@@ -227,6 +227,14 @@ class Made(unittest.TestCase):
             sinew.Simulation(self.scene, self.body).array("strain")
         self.assertIn("surface", str(raised.exception))
 
+    def test_reactions_answer_the_springs_of_bones(self):
+        scene = sinew.read_scene(SOURCE / "configs/box_bend.yaml", {"body.radius": 0.04, "binding.bone_damping": 0})
+        simulation = sinew.Simulation(scene)
+        simulation.run_until(0.3)
+        pulls = sum(simulation.array(f"force_{name}") for name in ("radial", "twist", "axial"))
+        self.assertGreater(abs(pulls).max(), 0.01)
+        numpy.testing.assert_allclose(-pulls.sum(0), simulation.reactions[:, :3].sum(0), atol=1e-9)
+
     def test_reactions_answer_gravity(self):
         """At rest, what the bones carry is the weight."""
         scene = sinew.make_scene(BAR | {"solver": {"gravity": [0, 0, -2]}, "material": {"damping_ratio": 1}}, self.body)

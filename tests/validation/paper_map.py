@@ -20,8 +20,8 @@ import matplotlib.pyplot as plt
 RADIUS, HOLD = 0.010, 1.5  # m; s: the end of the hold
 LAMBDAS, RANGES, BEGINNINGS = (0.02, 0.05, 0.1, 0.2, 0.5, 1), (2.4, 2.6, 2.75, 2.8284271247461903), (2, 2.1)
 COLUMNS = {"off": "radii off at the end", "broken": "neighbors parted at the hold, %",
-           "volume": "volume, largest and least", "opening": "longest edge of the skin at the hold, over its rest",
-           "inverted": "inverted particles, most"}
+           "volume": "volume, max and min", "opening": "longest edge of the skin at the hold, over its rest",
+           "inverted": "inverted particles, max"}
 
 
 def bent(sinew, scene, folder, values):

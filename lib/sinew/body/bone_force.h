@@ -48,7 +48,10 @@ TwistEnergy twist_energy(double alpha);
 
 /// The force of one bone on one particle.
 struct BonePull {
-  Vec3 spring = Vec3::Zero();   ///< N
+  Vec3 spring = Vec3::Zero();   ///< N, the sum of the following three
+  Vec3 radial = Vec3::Zero();   ///< N; of an anchor its whole spring
+  Vec3 twist = Vec3::Zero();    ///< N
+  Vec3 axial = Vec3::Zero();    ///< N
   Vec3 damping = Vec3::Zero();  ///< N
   double energy = 0;            ///< stored in the springs, J; 0 for open_loop's twist
   double power = 0;             ///< from the bone: force times the bone's own velocity there, W
@@ -63,6 +66,9 @@ struct ParticleState {
   double radius;                  ///< m
   std::size_t id = 0;             ///< in the written order
 };
+
+/// Where the bone at `pose` has moved the influence's reference point, m.
+Vec3 carried_foot(const Influence& influence, const Bone& bone, const BonePose& pose);
 
 /// The pull, including the weight, of the bone at `pose` (at rest `bone`) through `influence`.
 BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,

@@ -100,7 +100,7 @@ std::vector<WrittenArray> table_of_particles() {
 }
 
 /// Additional arrays of particles, by output.arrays or sinew measure --arrays.
-std::vector<WrittenArray> table_of_requested(const char* series) {
+std::vector<WrittenArray> table_of_measured(const char* series) {
   std::vector<WrittenArray> rows = {
       {series, point, "F", "1", full_tensor, real, plain,
        "deformation gradient over the neighbors at rest, on request"},
@@ -130,8 +130,28 @@ std::vector<WrittenArray> table_of_requested(const char* series) {
   return rows;
 }
 
-std::vector<WrittenArray> table_of_requested_in_particles() {
-  return table_of_requested("particles");
+/// What forces and bones of the moment define.
+std::vector<WrittenArray> table_of_stepped() {
+  std::vector<WrittenArray> rows = {
+      {"particles", point, "acceleration", "m/s^2", xyz, real, plain,
+       "force over mass, and gravity, on request"},
+      {"particles", point, "bone_point", "m", xyz, real, plain,
+       "reference point on its bone, where the bone is, on request"},
+      {"particles", point, "force_radial", "N", xyz, real, plain,
+       "force of the spring that keeps its distance from that point; of an anchor its whole "
+       "spring; "
+       "on request"},
+      {"particles", point, "force_twist", "N", xyz, real, plain,
+       "force of the spring that turns it with its bone, on request"},
+      {"particles", point, "force_axial", "N", xyz, real, plain,
+       "force of the spring against sliding along its bone, on request"},
+  };
+  rows[1].partial = true;
+  return rows;
+}
+
+std::vector<WrittenArray> table_of_measured_in_particles() {
+  return table_of_measured("particles");
 }
 
 std::vector<WrittenArray> table_of_values() {
@@ -139,7 +159,7 @@ std::vector<WrittenArray> table_of_values() {
       {"values", point, "Points", "m", xyz, real, plain, "position of the particle"},
       {"values", point, "id", "1", one, whole, scalars, "number of the particle, from 0"},
   };
-  for (WrittenArray& row : table_of_requested("values")) rows.push_back(std::move(row));
+  for (WrittenArray& row : table_of_measured("values")) rows.push_back(std::move(row));
   return rows;
 }
 
@@ -267,13 +287,18 @@ std::vector<WrittenArray> table_of_blowup() {
 
 std::vector<WrittenArray> make_table() {
   std::vector<WrittenArray> table;
-  for (auto rows :
-       {table_of_all, table_of_body, table_of_particles, table_of_requested_in_particles,
-        table_of_values, table_of_surface, table_of_skin_lbs, table_of_skin_dqs, table_of_bones,
-        table_of_bonds, table_of_frames, table_of_obstacles, table_of_supports, table_of_defects,
-        table_of_blowup})
+  for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_measured_in_particles,
+                    table_of_stepped, table_of_values, table_of_surface, table_of_skin_lbs,
+                    table_of_skin_dqs, table_of_bones, table_of_bonds, table_of_frames,
+                    table_of_obstacles, table_of_supports, table_of_defects, table_of_blowup})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
+}
+
+std::vector<std::string_view> names_of(const std::vector<WrittenArray>& rows) {
+  std::vector<std::string_view> names;
+  for (const WrittenArray& row : rows) names.push_back(row.name);
+  return names;
 }
 
 std::vector<std::string_view> words_of(std::string_view text) {
@@ -308,12 +333,13 @@ std::string_view place_text(ArrayPlace place) {
   return place == point ? "point" : place == cell ? "cell" : "field";
 }
 
-std::span<const std::string_view> requestable_arrays() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> found;
-    for (const WrittenArray& row : table_of_requested("values")) found.push_back(row.name);
-    return found;
-  }();
+std::span<const std::string_view> measured_arrays() {
+  static const std::vector<std::string_view> names = names_of(table_of_measured("values"));
+  return names;
+}
+
+std::span<const std::string_view> stepped_arrays() {
+  static const std::vector<std::string_view> names = names_of(table_of_stepped());
   return names;
 }
 
@@ -330,19 +356,25 @@ std::vector<std::string_view> frame_arrays(std::string_view text) {
   return found;
 }
 
-std::vector<std::string_view> requested_arrays(std::string_view text) {
+RequestedArrays requested_arrays(std::string_view text) {
   const std::vector<std::string_view> words = words_of(text);
-  const auto names = requestable_arrays();
-  const auto requested = [&](std::string_view name) {
+  const auto is_word = [&](std::string_view name) {
     return std::find(words.begin(), words.end(), name) != words.end();
   };
+  RequestedArrays found;
+  found.all = is_word("all");
+  std::vector<std::string_view> names;
+  const auto pick = [&](std::span<const std::string_view> from, std::vector<std::string_view>& to) {
+    names.insert(names.end(), from.begin(), from.end());
+    for (const std::string_view name : from)
+      if (found.all || is_word(name)) to.push_back(name);
+  };
+  pick(measured_arrays(), found.measured);
+  pick(stepped_arrays(), found.stepped);
   for (const std::string_view word : words)
     if (word != "all" && std::find(names.begin(), names.end(), word) == names.end())
       throw bad_input("there is no array " + shown(word) + " to ask for",
                       suggestion(word, names) + " (or all)");
-  std::vector<std::string_view> found;
-  for (const std::string_view name : names)
-    if (requested(name) || requested("all")) found.push_back(name);
   return found;
 }
 

@@ -41,15 +41,24 @@ const WrittenArray* find_written(std::string_view series, ArrayPlace place, std:
 /// "point", "cell", "field".
 std::string_view place_text(ArrayPlace place);
 
-/// The arrays of particles that are written only when somebody asks for them: F, J, stretch, ...
-std::span<const std::string_view> requestable_arrays();
+// Arrays of particles that are written only when somebody asks for them.
+
+/// Arrays that positions define, at any time later too: F, J, stretch, ...
+std::span<const std::string_view> measured_arrays();
+/// Arrays that forces and bones of the moment define: acceleration, bone_point, force_radial, ...
+std::span<const std::string_view> stepped_arrays();
+
+struct RequestedArrays {
+  std::vector<std::string_view> measured, stepped;  ///< in the order of the table, each once
+  bool all = false;  ///< asked for by "all": those that a body lacks are left out
+};
 
 /// The arrays of particles in every frame that a text names; none for all of them. Throws bad input
 /// for any other name, with the nearest one.
 std::vector<std::string_view> frame_arrays(std::string_view words);
 
-/// Picks those that a text names, in the order of the table, each once: names with commas or spaces
-/// between them, or "all". Throws bad input for any other, with the nearest name.
-std::vector<std::string_view> requested_arrays(std::string_view words);
+/// Picks those that a text names, with commas or spaces between them, or "all". Throws bad input
+/// for any other name, with the nearest one.
+RequestedArrays requested_arrays(std::string_view words);
 
 }  // namespace sinew

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/metrics/pair_forces.h>
@@ -272,9 +271,8 @@ FrameState state_at_rest(const RestBody& rest) {
 }
 
 std::vector<std::string_view> defined_arrays(const RestBody& rest, const FrameState& at_rest,
-                                             std::string_view words) {
-  const std::vector<std::string_view> names = requested_arrays(words);
-  const bool all = names.size() == requestable_arrays().size();
+                                             const RequestedArrays& asked) {
+  const std::vector<std::string_view>& names = asked.measured;
   std::vector<std::string_view> defined;
   const std::vector<Column> columns = particle_arrays(rest, at_rest, names);
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -283,7 +281,7 @@ std::vector<std::string_view> defined_arrays(const RestBody& rest, const FrameSt
     if (values == nullptr || std::any_of(values->begin(), values->end(),
                                          [](double value) { return !std::isnan(value); }))
       defined.push_back(names[k]);
-    else if (!all)
+    else if (!asked.all)
       throw bad_input("no particle has a value of " + array.name + ": " + why_undefined(array.name),
                       "leave it out of the arrays");
   }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/dataset.h>
 #include <sinew/metrics/frame.h>
 #include <sinew/metrics/rest_body.h>
@@ -44,7 +45,7 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state);
 // Particle values as arrays to be written: tensors in ParaView's order of components, XX YY ZZ XY
 // YZ XZ for symmetric ones and row by row for F.
 
-/// Returns those of requestable_arrays() that are named, in the written order of the particles;
+/// Returns those of measured_arrays() that are named, in the written order of the particles;
 /// not-a-number where a particle's neighbors do not define them, and stresses where the body's
 /// forces are not known. Uses positions and bones of the state. In parallel.
 std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
@@ -53,9 +54,9 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
 /// The body at rest as a frame, without velocities.
 FrameState state_at_rest(const RestBody& rest);
 
-/// Returns those of requested_arrays(words) that some particle of a state at rest has a value of.
-/// Throws bad input, with the reason, for another one unless it is meant by "all".
+/// Returns those of `asked.measured` that some particle of a state at rest has a value of. Throws
+/// bad input, with the reason, for another one unless it is meant by "all".
 std::vector<std::string_view> defined_arrays(const RestBody& rest, const FrameState& at_rest,
-                                             std::string_view words);
+                                             const RequestedArrays& asked);
 
 }  // namespace sinew

@@ -6,12 +6,12 @@
 #include <type_traits>
 #include <utility>
 
-#include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/detail/bond_frames.h>
+#include <sinew/run/moment_arrays.h>
 #include <sinew/scene/frame_content.h>
 
 namespace sinew {
@@ -103,10 +103,12 @@ void FrameData::begin_arrays(const OutputSettings& output, const FrameScene& sce
   const std::string words = strain == StrainInFrames::by_default ? words_for_arrays(output, body_)
                                                                  : words_asked_for(output, body_);
   arrays_ = requested_arrays(words);
-  if (arrays_.empty() && !output.bonds && !probed_) return;
-  measured_.emplace(body_, scene.surface, scene.neighbors);
+  const bool is_measured = !arrays_.measured.empty() || output.bonds || probed_;
+  if (is_measured) measured_.emplace(body_, scene.surface, scene.neighbors);
   try {
-    arrays_ = defined_arrays(measured_->rest(), measured_->at_rest(), words);
+    if (is_measured)
+      arrays_.measured = defined_arrays(measured_->rest(), measured_->at_rest(), arrays_);
+    arrays_.stepped = defined_moment_arrays(body_, std::move(arrays_.stepped), arrays_.all);
   } catch (const Error& error) {
     throw error.with_context({"output.arrays"});
   }
@@ -118,6 +120,7 @@ void FrameData::take(Simulation& simulation, double time, bool with_particles) {
   frame.moment = {time, static_cast<std::int32_t>(simulation.steps())};
   frame.with_particles = with_particles;
   frame.pose = simulation.pose();
+  frame.gravity = simulation.stepping().gravity;
   frame.energies = simulation.energies();
   if (body_.world) {
     WorldNow now = world_at(*body_.world, time, frame.pose);
@@ -154,6 +157,7 @@ void FrameData::lend_particles(const std::function<void(const Dataset&)>& use) {
 
 Dataset FrameData::particles_at(Points positions) {
   assert(now_.with_particles);
+  const bool all = selection_.ids.empty();
   const Forces& forces = now_.forces;
   group_.clear(), level_.clear();
   if (now_.grouping) group_ = now_.grouping->group, level_ = now_.grouping->levels();
@@ -173,8 +177,14 @@ Dataset FrameData::particles_at(Points positions) {
                                          level_,
                                          forces.group},
                                         std::move(positions), now_.moment, selection_);
-  if (!measured_) return particles;
-  for (Column& array : particle_arrays(measured_->rest(), now_.measured, arrays_))
+  std::vector<Column> columns;
+  if (measured_) columns = particle_arrays(measured_->rest(), now_.measured, arrays_.measured);
+  for (Column& array : columns)
+    particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
+  const BodyMoment moment{body_,          all ? particles.points : now_.positions,
+                          now_.particles, forces,
+                          now_.pose,      now_.gravity};
+  for (Column& array : moment_arrays(moment, arrays_.stepped))
     particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
   return particles;
 }
@@ -224,8 +234,8 @@ std::vector<Column> FrameData::measured(std::span<const std::string_view> names)
 }
 
 bool FrameData::is_plain() const {
-  return arrays_.empty() && selection_.ids.empty() && body_.material_number.empty() &&
-         !body_.grouping;
+  return arrays_.measured.empty() && arrays_.stepped.empty() && selection_.ids.empty() &&
+         body_.material_number.empty() && !body_.grouping;
 }
 
 }  // namespace sinew

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/dataset.h>
 #include <sinew/core/rest_neighbors.h>
 #include <sinew/core/surface_look.h>
@@ -51,6 +52,7 @@ struct FrameMoment {
   FrameState measured;  ///< what arrays and probes are measured of
   Energies energies;
   Pose pose;
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
   BoneReactions reactions;
   std::vector<ObstaclePose> obstacles;
   std::vector<Reaction> on_obstacles;
@@ -125,7 +127,7 @@ class FrameData {
   std::vector<std::int32_t> surface_bone_;
   std::vector<Triangles> obstacles_;
   BoneWeights vertex_weights_;             ///< for skinning alone, once it is asked for
-  std::vector<std::string_view> arrays_;   ///< additional ones
+  RequestedArrays arrays_;                 ///< additional ones
   std::optional<ParticleMeter> measured_;  ///< which these and bonds are computed from, if any
   FrameMoment now_;
   std::vector<std::int32_t> group_, level_;  ///< of the particles that were last asked for

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/core/arrays.h>
 #include <sinew/metrics/bone_metrics.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/limits.h>
@@ -57,9 +58,9 @@ struct Measured {
 struct MeasureOptions {
   std::vector<Limit> limits;
   std::optional<SurfaceSeries> reference;
-  std::string arrays;    ///< to be written as the series "values": see requested_arrays()
-  bool ahead = true;     ///< read the next frame while one is measured
-  bool playback = true;  ///< make one
+  RequestedArrays arrays;  ///< to be written as the series "values"
+  bool ahead = true;       ///< read the next frame while one is measured
+  bool playback = true;    ///< make one
   std::function<void(std::size_t done, std::size_t of)> progress = {};  ///< after each frame
 };
 

@@ -4,6 +4,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
+#include <sinew/run/moment_arrays.h>
 #include <sinew/run/run_files.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/stepping/simulation.h>
@@ -58,9 +59,19 @@ FrameState ParticleMeter::now(Simulation& simulation) const {
 
 std::vector<Column> ParticleMeter::arrays(Simulation& simulation, std::string_view words) {
   auto asked = asked_.find(words);
-  if (asked == asked_.end())
-    asked = asked_.emplace(words, defined_arrays(rest_, at_rest(), words)).first;
-  return particle_arrays(rest_, now(simulation), asked->second);
+  if (asked == asked_.end()) {
+    RequestedArrays named = requested_arrays(words);
+    named.measured = defined_arrays(rest_, at_rest(), named);
+    named.stepped = defined_moment_arrays(simulation.body(), std::move(named.stepped), named.all);
+    asked = asked_.emplace(words, std::move(named)).first;
+  }
+  const FrameState state = now(simulation);
+  std::vector<Column> found = particle_arrays(rest_, state, asked->second.measured);
+  const BodyMoment moment{simulation.body(),   state.positions,   simulation.particles(),
+                          simulation.forces(), simulation.pose(), simulation.stepping().gravity};
+  for (Column& array : moment_arrays(moment, asked->second.stepped))
+    found.push_back(std::move(array));
+  return found;
 }
 
 }  // namespace sinew

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <sinew/body/body.h>
+#include <sinew/core/arrays.h>
 #include <sinew/core/dataset.h>
 #include <sinew/core/triangles.h>
 #include <sinew/metrics/frame.h>
@@ -36,13 +37,13 @@ class ParticleMeter {
   /// Takes what forces depend on beside positions: bonds and muscles at `time` (s).
   void take_forces(Simulation& simulation, double time, FrameState& state) const;
   /// The arrays that are named, in words as output.arrays has them, at the present moment: by id,
-  /// in the units of requestable_arrays(). Throws bad input for one that the body has not.
+  /// in the units of written_arrays(). Throws bad input for one that the body has not.
   std::vector<Column> arrays(Simulation& simulation, std::string_view words);
 
  private:
   std::shared_ptr<const World> world_;
   RestBody rest_;
-  std::map<std::string, std::vector<std::string_view>, std::less<>> asked_;  ///< names, by words
+  std::map<std::string, RequestedArrays, std::less<>> asked_;  ///< by words
 };
 
 }  // namespace sinew

@@ -71,7 +71,9 @@ std::string words_for_arrays(const OutputSettings& output, const Body& body) {
 }
 
 std::vector<std::string_view> additional_arrays(const OutputSettings& output, const Body& body) {
-  return requested_arrays(words_for_arrays(output, body));
+  RequestedArrays found = requested_arrays(words_for_arrays(output, body));
+  found.measured.insert(found.measured.end(), found.stepped.begin(), found.stepped.end());
+  return found.measured;
 }
 
 double written_fraction(const OutputSettings& output, const Points& rest, double radius,

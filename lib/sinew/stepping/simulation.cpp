@@ -123,6 +123,7 @@ const Relaxation* Simulation::relaxation() const { return its_->relaxation.get()
 const std::vector<Offender>& Simulation::offenders() const { return its_->offenders; }
 std::int64_t Simulation::steps() const { return its_->steps; }
 const Body& Simulation::body() const { return *its_->body; }
+const Stepping& Simulation::stepping() const { return its_->stepping; }
 const Pose& Simulation::pose() const { return its_->cursor.at(time()); }
 
 double Simulation::mass(std::size_t i) const {

@@ -91,6 +91,7 @@ class Simulation {
   double time() const;  ///< s
   std::int64_t steps() const;
   const Body& body() const;
+  const Stepping& stepping() const;
   const Particles& particles() const;
   const Pose& pose() const;  ///< until the next step
 
