@@ -125,20 +125,22 @@ BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const
   const double level = bone.axis().dot(particle.rest - bone.head());
   BonePull pull;
   double stretching = 0;  // N m: power that the springs take from the bone as it grows
-  const auto add = [&](const Spring& spring, double along) {
-    pull.spring += influence.weight * spring.force;
+  const auto add = [&](Vec3& part, const Spring& spring, double along) {
+    part = influence.weight * spring.force;
+    pull.spring += part;
     pull.energy += influence.weight * spring.energy;
     stretching += influence.weight * along * pose.axis().dot(spring.force);
   };
   const bool anchored = springs.form == BoneForce::anchor;
   if (anchored) {
-    add(to_point(springs.radial, particle.position - carried.target), level);
+    add(pull.radial, to_point(springs.radial, particle.position - carried.target), level);
   } else {
-    add(radial(springs.radial, particle.position - carried.foot,
+    add(pull.radial,
+        radial(springs.radial, particle.position - carried.foot,
                influence.distance_to(bone, particle.rest), particle.radius),
         influence.foot);
-    add(twist(springs, pose, carried, particle), 0);
-    add(axial(springs.axial, pose.axis(), particle.position - carried.target), level);
+    add(pull.twist, twist(springs, pose, carried, particle), 0);
+    add(pull.axial, axial(springs.axial, pose.axis(), particle.position - carried.target), level);
   }
   const Vec3 carried_by = pose.velocity_at(anchored ? carried.target : particle.position);
   pull.damping = -influence.weight * springs.damping * (particle.velocity - carried_by);

@@ -48,7 +48,10 @@ TwistEnergy twist_energy(double alpha);
 
 /// The force of one bone on one particle.
 struct BonePull {
-  Vec3 spring = Vec3::Zero();   ///< N
+  Vec3 spring = Vec3::Zero();   ///< radial + twist + axial, N
+  Vec3 radial = Vec3::Zero();   ///< N; of an anchor its whole spring
+  Vec3 twist = Vec3::Zero();    ///< N
+  Vec3 axial = Vec3::Zero();    ///< N
   Vec3 damping = Vec3::Zero();  ///< N
   double energy = 0;            ///< stored in the springs, J; 0 for open_loop's twist
   double power = 0;             ///< from the bone: force times the bone's own velocity there, W
