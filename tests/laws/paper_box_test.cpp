@@ -126,6 +126,32 @@ TEST(PaperBox, TwistedWithoutAJointZoneIsCut) {
   EXPECT_GT(jump, 20);
 }
 
+/// Nothing answers the open twist force but the damping of the bones: m dL/dt = m M - c L, of the
+/// moment M = theta sum w k_tau rho^2 and the angular momentum L about the bones.
+TEST(PaperBox, TwistedByAnOpenLoopSpinsAsFastAsItsBonesDamp) {
+  Settings settings = test::box_scene();
+  settings.binding.joint_zone = 3;
+  settings.binding.twist_form = TwistForm::open_loop;
+  settings.tracks = {test::track("upper", {test::twist_key(0, 0), test::twist_key(0.25, 20)})};
+  Simulation simulation = test::make_simulation(settings, box());
+  while (simulation.time() < 0.5 - 1e-9) simulation.step();
+  const Body& body = simulation.body();
+  const Particles& now = simulation.particles();
+  double momentum = 0, moment = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const Vec3 place = now.position(i);
+    momentum += now.mass * place.cross(now.velocity(i)).z();
+    for (const Influence& influence : body.binding.of(static_cast<std::size_t>(now.id[i])))
+      if (influence.bone == 1)
+        moment +=
+            influence.weight * body.springs[1].twist * radians(20) * place.head<2>().squaredNorm();
+  }
+  ASSERT_DOUBLE_EQ(body.springs[0].damping, body.springs[1].damping);
+  EXPECT_NEAR(momentum, now.mass * moment / body.springs[1].damping, 0.02 * momentum);
+  const auto turns = turns_of_planes(positions_of(now), 0);
+  EXPECT_GT(turns.back(), 2 * 20) << "the tip has overtaken its bone";
+}
+
 double speed_after_noise(double b_in_radii) {
   Settings settings = test::box_scene();
   settings.material.b = b_in_radii;

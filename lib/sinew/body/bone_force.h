@@ -48,7 +48,7 @@ TwistEnergy twist_energy(double alpha);
 
 /// The force of one bone on one particle.
 struct BonePull {
-  Vec3 spring = Vec3::Zero();   ///< N, the sum of the following three
+  Vec3 spring = Vec3::Zero();   ///< radial + twist + axial, N
   Vec3 radial = Vec3::Zero();   ///< N; of an anchor its whole spring
   Vec3 twist = Vec3::Zero();    ///< N
   Vec3 axial = Vec3::Zero();    ///< N

@@ -45,11 +45,28 @@ FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset,
                      FigureSetOptions options)
     : runs_(std::move(runs)), preset_(preset), options_(std::move(options)) {
   check_times(options_.times, runs_.front()->files());
+  if (options_.range && drawn(0).pulls)
+    throw bad_input("the colors of the view binding have no range",
+                    "leave out --range, or choose another view: --view forces");
   check_memory(options_.width, options_.height, available_memory());
   for (const DrawnRun* run : runs_) painters_.emplace_back(run->files().surface, scale());
 }
 
+/// Says how strong a pull the longest arrow of a run is.
+std::string FigureSet::arrow_scale(std::size_t run) const {
+  if (!drawn(run).pulls) return "";
+  if (!drawn(run).is_pulled()) return ", no force";
+  return ", longest arrow " + three_digits(drawn(run).range.high) + " N";
+}
+
 ColorScale FigureSet::scale() const {
+  if (drawn(0).pulls) {
+    ColorScale scale{"force of the bone", "", 0, 2};
+    if (runs_.size() == 1) scale.name += arrow_scale(0);  // else in the runs' titles
+    scale.names = {"radial", "twist", "axial"};
+    scale.colors.assign(palette::pulls.begin(), palette::pulls.end());
+    return scale;
+  }
   ColorScale scale{drawn(0).name(), drawn(0).unit(), drawn(0).range.low, drawn(0).range.high,
                    options_.colors};
   for (std::size_t run = 1; run < runs_.size(); ++run) {
@@ -83,7 +100,7 @@ std::vector<Snapshot> FigureSet::snapshots(std::size_t frame) const {
 }
 
 std::string FigureSet::title(std::size_t run) const {
-  return runs_.size() > 1 ? runs_[run]->name() : "";
+  return runs_.size() > 1 ? runs_[run]->name() + arrow_scale(run) : "";
 }
 
 std::string FigureSet::name() const {

@@ -57,6 +57,7 @@ class FigureSet {
 
  private:
   const DrawnView& drawn(std::size_t run) const { return runs_[run]->view_presets()[preset_]; }
+  std::string arrow_scale(std::size_t run) const;
   ColorScale scale() const;
   std::vector<std::size_t> moments() const;
   std::vector<Snapshot> snapshots(std::size_t frame) const;

@@ -202,8 +202,12 @@ DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
 DrawnView DrawnRun::applied(const ViewPreset& preset) const {
   const std::string array = options_.array.empty() ? std::string(preset.array) : options_.array;
   if (preset.view == View::lines)
-    return {preset, DrawnValues(run_, "displacement"), DrawnBonds(run_, array)};
-  return {preset, DrawnValues(run_, array), {}};
+    return {preset, DrawnValues(run_, "displacement"), DrawnBonds(run_, array), {}};
+  if (preset.view != View::binding) return {preset, DrawnValues(run_, array), {}, {}};
+  if (!options_.array.empty())
+    throw bad_input("the view binding shows forces of bones, not the array " + shown(array),
+                    "leave out --array, or choose another view: --view forces");
+  return {preset, DrawnValues(run_, array), {}, DrawnPulls(run_)};
 }
 
 void DrawnRun::select_bones() {
@@ -228,6 +232,12 @@ bool DrawnRun::is_selected(std::size_t particle) const {
 
 DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,
                                       const DrawnView& drawn) const {
+  if (drawn.pulls) {
+    double strongest = 0;
+    for (const DrawnPull& pull : drawn.pulls->at(frame))
+      if (is_selected(pull.particle)) strongest = std::max(strongest, pull.strongest());
+    return {0, strongest};
+  }
   if (!drawn.bonds) return DrawnValues::range_of(drawn.values.at(index, frame));
   std::vector<double> values;
   for (const DrawnBond& bond : drawn.bonds->at(index)) values.push_back(bond.value);
@@ -330,6 +340,27 @@ void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView
   }
 }
 
+/// Shows these particles alone, each with its reference point and the arrows of its forces.
+void DrawnRun::add_pulls(Snapshot& snapshot, const std::vector<DrawnPull>& pulls,
+                         const DrawnView& drawn) const {
+  const double size = bounds(positions_of(run_.body.particles)).sizes().maxCoeff();
+  const double scale = drawn.is_pulled() ? longest_arrow * size / drawn.range.high : 0;  // m/N
+  snapshot.particles.clear(), snapshot.values.clear(), snapshot.marks.clear();
+  for (const DrawnPull& pull : pulls) {
+    if (!is_selected(pull.particle)) continue;
+    snapshot.particles.push_back(pull.position);
+    snapshot.references.push_back(pull.reference);
+    snapshot.lines.push_back(
+        {pull.reference, pull.position, std::numeric_limits<double>::quiet_NaN()});
+    double number = 0;  // in the legend
+    for (const Vec3& force : {pull.radial, pull.twist, pull.axial}) {
+      if (scale * force.norm() > snapshot.radius)  // shorter ones lie within the sphere
+        snapshot.arrows.push_back({pull.position, scale * force, number});
+      ++number;
+    }
+  }
+}
+
 void DrawnRun::add_obstacles(Snapshot& snapshot, std::size_t index) const {
   snapshot.obstacles = read_obstacles(run_, index);
   snapshot.obstacle_space = overview_.obstacle_space;
@@ -366,6 +397,8 @@ void DrawnRun::add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView&
 Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   RunFrame frame = read_frame(run_, index);
   std::vector<double> values = drawn.values.at(index, frame);
+  std::vector<DrawnPull> pulls;
+  if (drawn.pulls) pulls = drawn.pulls->at(frame);
   Snapshot snapshot = snapshot_of(run_, std::move(frame), overview_.angle[index]);
   snapshot.values = std::move(values);
   snapshot.marks = marks_;
@@ -373,6 +406,7 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   add_obstacles(snapshot, index);
   snapshot.forces = arrows_of(forces_->at(index));
   add_traces(snapshot, index);
+  if (drawn.pulls) add_pulls(snapshot, pulls, drawn);
   if (drawn.bonds) add_bonds(snapshot, index, drawn);
   if (drawn.preset.cut_open) cut_open(snapshot);
   if (drawn.preset.view == View::arrows) add_arrows(snapshot, index, drawn);

@@ -14,6 +14,7 @@
 #include <sinew/metrics/rest_body.h>
 #include <sinew/render/snapshot.h>
 #include <sinew/run/drawn_bonds.h>
+#include <sinew/run/drawn_pulls.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/world_shown.h>
 
@@ -66,8 +67,11 @@ struct DrawnView {
   ViewPreset preset;
   DrawnValues values;
   std::optional<DrawnBonds> bonds;  ///< where the preset's view is of lines: colored instead
-  DrawnValues::Range range = {};    ///< of what is colored, over all frames
+  std::optional<DrawnPulls> pulls;  ///< where it is of the binding
+  DrawnValues::Range range = {};    ///< of what is colored or drawn as arrows, over all frames
 
+  /// The largest force is drawn as the longest arrow; false where all are rounding.
+  bool is_pulled() const { return pulls && range.high > pulls->negligible(); }
   const std::string& name() const { return bonds ? bonds->name() : values.name(); }
   const std::string& unit() const { return bonds ? bonds->unit() : values.unit(); }
 };
@@ -120,6 +124,8 @@ class DrawnRun {
   void show_selected(Snapshot& snapshot) const;
   void add_traces(Snapshot& snapshot, std::size_t index) const;
   void add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
+  void add_pulls(Snapshot& snapshot, const std::vector<DrawnPull>& pulls,
+                 const DrawnView& drawn) const;
   void cut_open(Snapshot& snapshot) const;
   void add_obstacles(Snapshot& snapshot, std::size_t index) const;
   void add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;

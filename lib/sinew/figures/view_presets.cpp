@@ -12,7 +12,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::array<ViewPreset, 8> all_view_presets = {{
+constexpr std::array<ViewPreset, 9> all_view_presets = {{
     {"body", View::both, false, "displacement", "particles within the skin's edges, and the bones"},
     {"surface", View::surface, false, "displacement", "the skin, the bones shining through"},
     {"particles", View::particles, false, "displacement", "spheres of their true size"},
@@ -21,6 +21,8 @@ constexpr std::array<ViewPreset, 8> all_view_presets = {{
     {"forces", View::arrows, false, "force_pair", "arrows of a force within the pale skin"},
     {"bonds", View::lines, false, "strain", "the bonds as lines within the pale skin"},
     {"bones", View::bones, false, "displacement", "the bones and their axes in the pale skin"},
+    {"binding", View::binding, false, "displacement",
+     "how the bones pull a few particles: reference points, radial and twist forces"},
 }};
 
 struct NamedView {

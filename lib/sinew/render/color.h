@@ -28,6 +28,9 @@ inline constexpr Color sample{236, 120, 12};
 inline constexpr Color muscle{206, 44, 48};
 inline constexpr Color obstacle{128, 134, 142};
 inline constexpr Color bone{44, 58, 92};
+inline constexpr Color reference{250, 204, 40};
+inline constexpr std::array<Color, 3> pulls{
+    {{0, 108, 190}, {214, 82, 0}, {0, 150, 110}}};  // radial, twist, axial
 inline constexpr std::array<Color, 3> axes{{{205, 52, 56}, {52, 150, 74}, {48, 98, 200}}};  // x y z
 inline constexpr std::array<Color, 6> traces{
     {{214, 39, 40}, {31, 119, 180}, {255, 127, 14}, {148, 53, 189}, {44, 160, 44}, {227, 74, 180}}};

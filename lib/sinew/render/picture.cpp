@@ -177,6 +177,15 @@ Exposure Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
   return only_seen(std::move(picture));
 }
 
+void Painter::add_binding(const Snapshot& snapshot, const Sizes& sizes) {
+  vtkRenderer& renderer = stage_.renderer();
+  add_bare_bones(renderer, snapshot, 1.2 * sizes.grain, palette::bone);
+  add_references(renderer, snapshot, 0.6 * sizes.grain);
+  add_particles(renderer, snapshot, scale_);
+  add_lines(renderer, snapshot, scale_, 1.5 * sizes.line);
+  add_arrows(renderer, snapshot, scale_);
+}
+
 void Painter::tint_muscles(Exposure& picture, const Snapshot& snapshot) {
   const Snapshot muscles = marked(snapshot, Mark::muscle);
   if (muscles.particles.empty()) return;
@@ -223,6 +232,7 @@ Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) 
   if (view == View::plan) tint_muscles(picture, snapshot);
   if (view == View::plan || view == View::bones)
     add_bones(stage_.renderer(), snapshot, 2.2 * sizes.grain, palette::bone);
+  if (view == View::binding) add_binding(snapshot, sizes);
   if (view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
   if (view == View::lines) add_lines(stage_.renderer(), snapshot, scale_, sizes.line);
   if (view == View::plan)

@@ -17,13 +17,15 @@ enum class View {
   arrows,     ///< the snapshot's arrows inside a pale skin
   lines,      ///< the snapshot's lines inside a pale skin
   bones,      ///< the bones and their axes inside a pale skin
+  binding,    ///< the bones, the particles with the lines to their reference points and the arrows
+              ///< of their forces inside a pale skin
   plan,       ///< the bones and marked particles inside a pale skin, muscles as a red tint
 };
 
 /// Whether its colors show values.
 constexpr bool shows_values(View view) {
   return view == View::particles || view == View::both || view == View::arrows ||
-         view == View::lines;
+         view == View::lines || view == View::binding;
 }
 
 struct PictureOptions {
@@ -60,6 +62,7 @@ class Painter {
   Exposure particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones);
   Exposure surface(const Snapshot& snapshot, const Sizes& sizes);
   Exposure pale_skin(const Snapshot& snapshot, const Sizes& sizes);
+  void add_binding(const Snapshot& snapshot, const Sizes& sizes);
   void tint_muscles(Exposure& picture, const Snapshot& snapshot);
   void put_traces(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
   void put_forces(Exposure& picture, const Snapshot& snapshot);

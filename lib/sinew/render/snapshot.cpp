@@ -23,4 +23,10 @@ double ColorScale::position(double value) const {
   return std::min(1.0, (value - low) / (high - low));
 }
 
+Color ColorScale::color(double value) const {
+  if (colors.empty() || std::isnan(value)) return mapped_color(position(value), map);
+  const double last = static_cast<double>(colors.size()) - 1;
+  return colors[static_cast<std::size_t>(std::lround(std::clamp(value, 0.0, last)))];
+}
+
 }  // namespace sinew

@@ -62,6 +62,7 @@ struct Snapshot {
   std::vector<SnapshotBone> bones;
   std::vector<SnapshotArrow> arrows;
   std::vector<SnapshotLine> lines;
+  Points references;                  ///< where bones hold particles, m, drawn as small balls
   std::vector<SnapshotTrace> traces;  ///< over everything else
   std::vector<SnapshotForce> forces;  ///< over everything else
   std::vector<Mark> marks;            ///< one per particle; empty: none
@@ -79,10 +80,11 @@ struct ColorScale {
   double low = 0, high = 1;
   ColorMap map = ColorMap::indigo;
   std::vector<std::string> names = {};  ///< of the values 0, 1, ... up to `high`, if they have any
+  std::vector<Color> colors = {};       ///< of these values; empty: those of the map
 
   /// Position of `value` between low and high: 0 .. 1, clamped; not-a-number of not-a-number.
   double position(double value) const;
-  Color color(double value) const { return mapped_color(position(value), map); }
+  Color color(double value) const;
 };
 
 }  // namespace sinew

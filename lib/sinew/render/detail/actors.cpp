@@ -197,21 +197,31 @@ void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading&
   add_edges(renderer, lifted(snapshot.surface, style.lift), skin.creases, 0.8, style.width);
 }
 
+void add_bare_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
+                    const Color& color) {
+  if (snapshot.bones.empty()) return;
+  Points ends;
+  for (const SnapshotBone& bone : snapshot.bones) ends.insert(ends.end(), {bone.head, bone.tail});
+  add_tubes(renderer, ends, 0.3 * thickness, color);
+  add_balls(renderer, ends, 0.55 * thickness, color);
+}
+
 void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
                const Color& color) {
   if (snapshot.bones.empty()) return;
-  Points tubes, joints;
+  add_bare_bones(renderer, snapshot, thickness, color);
   std::array<Points, 3> axes;
   for (const SnapshotBone& bone : snapshot.bones) {
-    tubes.insert(tubes.end(), {bone.head, bone.tail});
-    joints.insert(joints.end(), {bone.head, bone.tail});
     for (int k = 0; k < 3; ++k)
       axes[k].insert(axes[k].end(), {bone.head, bone.head + 3.2 * thickness * bone.axes.col(k)});
   }
-  add_tubes(renderer, tubes, 0.3 * thickness, color);
-  add_balls(renderer, joints, 0.55 * thickness, color);
   for (int k = 0; k < 3; ++k)  // the one along the bone covers it
     add_tubes(renderer, axes[k], (k == 0 ? 0.36 : 0.22) * thickness, palette::axes[k]);
+}
+
+void add_references(vtkRenderer& renderer, const Snapshot& snapshot, double radius) {
+  if (!snapshot.references.empty())
+    add_balls(renderer, snapshot.references, radius, palette::reference);
 }
 
 namespace {

@@ -32,9 +32,16 @@ void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading&
 void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
              const LineStyle& style);
 
-/// Tubes with joints and their axes in red, green and blue, about `thickness` (m) thick.
+/// Tubes with joints, about `thickness` (m) thick.
+void add_bare_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
+                    const Color& color);
+
+/// The same, with their axes in red, green and blue.
 void add_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
                const Color& color);
+
+/// Balls of `radius` (m) at the reference points of particles on their bones.
+void add_references(vtkRenderer& renderer, const Snapshot& snapshot, double radius);
 
 /// The obstacles within their space, with their outlines `line` rendered pixels wide.
 void add_obstacles(vtkRenderer& renderer, const Snapshot& snapshot, double line);
