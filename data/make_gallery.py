@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the README's pictures of runs, in pictures/, from the scenes in configs.
+"""Makes the pictures of runs for README files and the figures of the paper, in pictures/, from the scenes in configs.
 
 usage: make_gallery.py SINEW RUNS [NAME ...]     SINEW: the program build/bin/sinew; RUNS: a folder that keeps
                                                  the runs, so that a second call only draws; NAME: only these
-                                                 pictures. Needs Debian's python3-pil, paraview,
-                                                 libqt5svg5 and chromium
+                                                 pictures. Needs Debian's python3-pil, python3-matplotlib,
+                                                 paraview, libqt5svg5 and chromium
 """
 import os
 import subprocess
@@ -14,6 +14,8 @@ import tempfile
 from pathlib import Path
 
 from PIL import Image
+
+import paper_figures
 
 DATA = Path(__file__).resolve().parent
 CONFIGS = DATA.parent / "configs"
@@ -25,6 +27,9 @@ RUNS = {
     "arm": ("arm_bend", []),
     "fox": ("creature_walk", []),
     "paper": ("box_bend", []),
+    "literal": ("paper_literal", []),
+    "bend_and_twist": ("box_bend", ["--set", "motion.tracks=[{bone: upper, keys: [{time: 0}, {time: 0.4, euler: "
+                                    "[0, 60, 0], twist: 60}]}]", "solver.duration=0.4"]),
     "bonded": ("box_bend", ["--set", "material.model=bonded"]),
     "groups": ("box_bend", ["--set", "material.model=bonded", "--set", "body.radius=none", "--set",
                             "body.count=200000", "--set", "hierarchy.enabled=true", "--set",
@@ -40,6 +45,8 @@ PICTURES = {
     "forces": ("box_bend", ["--view", "forces", "--times", "0.5,1,1.4"], "forces_sheet"),
     "compare": ("paper", ["--compare", "bonded", "--view", "strain", "--times", "0,1.4,3"],
                 "compare_strain_sheet"),
+    "paper_figure_3": ("bend_and_twist", ["--view", "binding", "--times", "0.2,0.4"], "binding_sheet"),
+    "paper_figure_4": ("literal", ["--times", "0,0.5,1.5,3.5"], "contact_sheet"),
     "groups": ("groups", ["--view", "section", "--array", "level", "--times", "0,0.6,1.2"], "section_sheet"),
 }
 
@@ -60,13 +67,21 @@ def draw(sinew, runs, name):
         subprocess.run([sinew, "render", "--no-movie", "--width", "960", "--height", "540", "-o", folder,
                         *options, simulated(sinew, runs, run)],
                        check=True, stdout=subprocess.DEVNULL)
-        keep(Path(folder) / f"{taken}.png", name)
+        (keep_small if name == "paper_figure_4" else keep)(Path(folder) / f"{taken}.png", name)
 
 
 def keep(picture, name):
     """All colors, in the smallest file, without a black border."""
     image = Image.open(picture).convert("RGB")
     image.crop(image.getbbox()).save(DATA / f"pictures/{name}.png", optimize=True)
+
+
+def keep_small(picture, name):
+    """As wide as a page shows it, in a palette."""
+    image = Image.open(picture).convert("RGB")
+    image = image.crop(image.getbbox())
+    image.thumbnail((800, 800), Image.LANCZOS)
+    image.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=8, dither=Image.Dither.NONE).save(DATA / f"pictures/{name}.png", optimize=True)
 
 
 def draw_window(sinew, runs):
@@ -92,12 +107,24 @@ def draw_report(sinew, runs):
         keep(picture, "report")
 
 
+def draw_range(sinew, _):
+    """Figure 1 of the paper."""
+    paper_figures.interaction_range(sinew, CONFIGS / "paper_gap.yaml", 2.1, 2.6, DATA / "pictures/paper_figure_1.png")
+
+
+def draw_force(sinew, _):
+    """Figure 2 of the paper."""
+    scenes = (CONFIGS / f"{name}.yaml" for name in ("paper_gap", "box_bend", "paper_literal"))
+    paper_figures.force_curve(sinew, *scenes, DATA / "pictures/paper_figure_2.png")
+
+
 def main():
     sinew, runs = (Path(place).resolve() for place in sys.argv[1:3])
-    screens = {"paraview": draw_window, "report": draw_report}
-    for name in sys.argv[3:] or [*PICTURES, *screens]:
-        if name in screens:
-            screens[name](sinew, runs)
+    others = {"paraview": draw_window, "report": draw_report, "paper_figure_1": draw_range,
+              "paper_figure_2": draw_force}
+    for name in sys.argv[3:] or [*PICTURES, *others]:
+        if name in others:
+            others[name](sinew, runs)
         else:
             draw(sinew, runs, name)
 

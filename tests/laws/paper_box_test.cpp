@@ -132,6 +132,7 @@ TEST(PaperBox, TwistedByAnOpenLoopSpinsAsFastAsItsBonesDamp) {
   Settings settings = test::box_scene();
   settings.binding.joint_zone = 3;
   settings.binding.twist_form = TwistForm::open_loop;
+  settings.material.damping_form = DampingForm::central;  // the paper's own brakes what turns
   settings.tracks = {test::track("upper", {test::twist_key(0, 0), test::twist_key(0.25, 20)})};
   Simulation simulation = test::make_simulation(settings, box());
   while (simulation.time() < 0.5 - 1e-9) simulation.step();
@@ -146,7 +147,7 @@ TEST(PaperBox, TwistedByAnOpenLoopSpinsAsFastAsItsBonesDamp) {
         moment +=
             influence.weight * body.springs[1].twist * radians(20) * place.head<2>().squaredNorm();
   }
-  ASSERT_DOUBLE_EQ(body.springs[0].damping, body.springs[1].damping);
+  ASSERT_NEAR(body.springs[0].damping, body.springs[1].damping, 1e-12);
   EXPECT_NEAR(momentum, now.mass * moment / body.springs[1].damping, 0.02 * momentum);
   const auto turns = turns_of_planes(positions_of(now), 0);
   EXPECT_GT(turns.back(), 2 * 20) << "the tip has overtaken its bone";
