@@ -143,9 +143,9 @@ class Bar:
 
         u, v, w = moved[middle].T
         if kind == "pull":
-            return -float(hand["pin_force_z"]) / fitted(w, z, one)[0] / (YOUNG_MODULUS * WIDTH**2)
+            return float(hand["pin_force_z"]) / fitted(w, z, one)[0] / (YOUNG_MODULUS * WIDTH**2)
         if kind == "bend":
             curvature = -fitted(w, x * z, x, z, one)[0]
-            return -float(hand["pin_moment_y"]) / curvature / (YOUNG_MODULUS * WIDTH**4 / 12)
+            return float(hand["pin_moment_y"]) / curvature / (YOUNG_MODULUS * WIDTH**4 / 12)
         twist = (fitted(v, x * z, x, z, one)[0] - fitted(u, y * z, y, z, one)[0]) / 2
-        return -float(hand["pin_moment_z"]) / twist / (self.shear_modulus * SQUARE_TORSION * WIDTH**4)
+        return float(hand["pin_moment_z"]) / twist / (self.shear_modulus * SQUARE_TORSION * WIDTH**4)

@@ -76,7 +76,7 @@ class Stress(unittest.TestCase):
                 middle.bonds = meshio.read(sorted((run / "bonds").glob("*.vtu"))[-1])
             with (run / "bones.csv").open() as file:
                 rows = [row for row in csv.DictReader(file) if row["bone"] == "hand"]
-            middle.pull = -float(rows[-1]["pin_force_z"])
+            middle.pull = float(rows[-1]["pin_force_z"])
         middle.half_way = bar.length / 2
         return middle
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bones.csv: the force and moment of the body on each bone over time, one row per bone and frame.
+// bones.csv: force and moment of each bone on the body over time, one row per bone and frame.
 //
 //     BoneTable table("out/bend/bones.csv");
 //     table.add(time, skeleton, sums, {springs, pins, obstacles});
@@ -18,12 +18,12 @@ namespace sinew {
 
 /// What is told of a bone at one moment.
 struct BoneRow {
-  Vec3 force, moment;  ///< of the body on it, N and N m about the head
-  double power;        ///< of it on the body, W
+  Vec3 force, moment;  ///< on the body, N and N m about its head
+  double power;        ///< into the body, W; of a rigid bone force . v + moment . omega
 };
 
 /// Columns: time (s), bone (its name), force_x, force_y, force_z (N), moment_x, moment_y, moment_z
-/// (N m, about the head), power (W, of the bone on the body); the same of its parts, which are
+/// (N m, about the head), power (W), all of the bone on the body; the same of its parts, which are
 /// called spring_force_x and so on: through its springs, pins and obstacles. Grows frame by frame.
 class BoneTable {
  public:

@@ -29,10 +29,11 @@ std::vector<double> each(std::size_t nth, std::span<const double> times) {
   return some;
 }
 
+/// Forces of the bones on the body.
 std::vector<BoneRow> rows_of(const std::vector<Reaction>& reactions) {
   std::vector<BoneRow> rows;
   rows.reserve(reactions.size());
-  for (const Reaction& on : reactions) rows.push_back({on.force, on.moment, on.power});
+  for (const Reaction& on : reactions) rows.push_back({-on.force, -on.moment, on.power});
   return rows;
 }
 
