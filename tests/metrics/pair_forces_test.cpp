@@ -32,7 +32,7 @@ double pressure(double force, double d) {
 }
 
 void expect_pressure(const RestBody& body, const FrameState& state, double expected) {
-  const std::vector<Mat3> found = stresses(body, state);
+  const std::vector<Mat3> found = kirchhoff_stresses(body, state);
   for (std::size_t i = 0; i < body.particles(); ++i)
     if (body.shape.neighbors.of(i).size() == 12) {
       EXPECT_LT((found[i] + expected * Mat3::Identity()).norm(), 1e-12 * pressure(r, r));
@@ -43,7 +43,7 @@ TEST(PairForces, OfBondsThatChangeAreNotKnownWithoutTheirState) {
   const RestBody body = rest_body(changing());
   FrameState state = moved(body, scaled(1.1));
   EXPECT_FALSE(knows_forces(body, state));
-  for (const Mat3& one : stresses(body, state)) EXPECT_TRUE(one.array().isNaN().all());
+  for (const Mat3& one : kirchhoff_stresses(body, state)) EXPECT_TRUE(one.array().isNaN().all());
   state.bond_rest = first_bond_rest(body);
   EXPECT_TRUE(knows_forces(body, state));
   expect_pressure(body, state, -pressure(0.1 * 2 * r, 1.1 * 2 * r));
@@ -85,7 +85,7 @@ TEST(PairForces, AreOverTheVolumeThatTheBondsMakeStiff) {
   state.bond_rest = first_bond_rest(body);
   // Stress as of factors 1: twelve bonds, and six of a quarter at sqrt(2) times the distance.
   const double expected = pressure(0.1 * 2 * r, 1.1 * 2 * r) * (12 + 6 * 0.25 * 2) / 12;
-  const std::vector<Mat3> found = stresses(body, state);
+  const std::vector<Mat3> found = kirchhoff_stresses(body, state);
   for (std::size_t i = 0; i < body.particles(); ++i)
     if (body.bonds_of(i) == 18) {
       EXPECT_LT((found[i] - expected * Mat3::Identity()).norm(), 1e-12 * expected);

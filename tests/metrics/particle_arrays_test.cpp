@@ -109,13 +109,48 @@ TEST(ParticleArrays, BondsPullWhereNoOtherForceReaches) {
   const RestBody body = rest_body(input);
   const double stretch = 1.5;  // d = 3 r is beyond b
   const auto found = values_of(body, moved(body, affine(stretch * Mat3::Identity())), "stress");
-  // Twelve bonds of force 0.5 d0 at 1.5 d0: sum f r / (2 V0) = 12 0.5 1.5 d0^2 / 3 / (2 V0) each.
-  const double d0 = 2 * r, pressure = 12 * 0.5 * 1.5 * d0 * d0 / 3 / (2 * volume_per_particle(r));
+  // Twelve bonds of force 0.5 d0 at 1.5 d0: sum f r / (2 V) = 12 0.5 1.5 d0^2 / 3 / (2 V) each.
+  const double d0 = 2 * r, V = std::pow(stretch, 3) * volume_per_particle(r),
+               pressure = 12 * 0.5 * 1.5 * d0 * d0 / 3 / (2 * V);
   for (std::size_t i = 0; i < body.particles(); ++i)
     if (body.shape.neighbors.of(i).size() == 12) {
       for (std::size_t k = 0; k < 6; ++k)
         EXPECT_NEAR(found[6 * i + k], k < 3 ? pressure : 0, 1e-9 * pressure);
     }
+}
+
+/// Pulled to twice its length without getting thinner: the force on a face that keeps its area.
+TEST(ParticleArrays, StressIsForceOverThePresentArea) {
+  RestInput input = box_input();
+  input.law.force = [](double) { return 0.0; };
+  input.law.bond = [](double d, double rest) { return rest - d; };
+  const RestBody body = rest_body(input);
+  const double d0 = 2 * r, squeeze = 0.8;
+  const Mat3 F = Vec3(squeeze, squeeze, 1).asDiagonal();
+  const auto found = values_of(body, moved(body, affine(F)), "stress"),
+             kirchhoff = values_of(body, moved(body, affine(F)), "stress_kirchhoff");
+  // Across a face normal to x, of area d0^2 per particle and layer at rest, four bonds at 45
+  // degrees in planes xy (two) and xz (two) act; those of xy keep their direction.
+  const double x = d0 / std::sqrt(2.0), area = squeeze * d0 * d0;
+  const double in_xy = (squeeze - 1) * d0 / std::sqrt(2.0) * 2;
+  const double long_xz = x * std::sqrt(squeeze * squeeze + 1);
+  const double in_xz = (long_xz - d0) * squeeze * x / long_xz * 2;
+  for (std::size_t i = 0; i < body.particles(); ++i)
+    if (body.shape.neighbors.of(i).size() == 12) {
+      EXPECT_NEAR(found[6 * i], (in_xy + in_xz) / area, 1e-9 / d0);
+      EXPECT_NEAR(kirchhoff[6 * i], found[6 * i] * F.determinant(), 1e-9 / d0);
+    }
+}
+
+TEST(ParticleArrays, WhatIsCrushedFlatHasNoStress) {
+  RestInput input = box_input();
+  input.law.force = [](double) { return 1.0; };
+  const RestBody body = rest_body(input);
+  const auto flat = moved(body, affine(Vec3(1, 1, 0.04).asDiagonal()));
+  for (const double value : values_of(body, flat, "stress")) EXPECT_TRUE(std::isnan(value));
+  for (const double value : values_of(body, flat, "von_mises")) EXPECT_TRUE(std::isnan(value));
+  for (const double value : values_of(body, flat, "stress_kirchhoff"))
+    EXPECT_FALSE(std::isnan(value));
 }
 
 TEST(ParticleArrays, VolumesThatAreKeptPressBack) {
@@ -128,7 +163,7 @@ TEST(ParticleArrays, VolumesThatAreKeptPressBack) {
   for (std::size_t i = 0; i < body.particles(); ++i)
     if (body.shape.neighbors.of(i).size() == 12) {  // w = 1 within
       for (std::size_t k = 0; k < 6; ++k)
-        EXPECT_NEAR(found[6 * i + k], k < 3 ? 1000 * (J - 1) * J : 0, 1e-9);
+        EXPECT_NEAR(found[6 * i + k], k < 3 ? 1000 * (J - 1) : 0, 1e-9);
     }
 }
 

@@ -52,7 +52,7 @@ class Completion(unittest.TestCase):
                                                            text=True).stdout.split("--view")[1].split("--compare")[0]))
         self.assertEqual(set(bash("sinew", "render", "--view", "")), views)
         settings = subprocess.run([BIN / "sinew", "run", "--help-settings"], capture_output=True, text=True).stdout
-        arrays = settings.split("or all: ")[1].splitlines()[0].split(", ")
+        arrays = settings.split("or all: ")[1].splitlines()[0].split("; ")[0].split(", ")
         self.assertEqual(set(bash("sinew", "measure", "--arrays", "")), {*arrays, "all"})
         fill = subprocess.run([BIN / "sinew", "fill", "--help"], capture_output=True, text=True).stdout
         formats = re.findall(r"(\w+) \(", fill.split("--to FORMAT")[1].split("--verify")[0])

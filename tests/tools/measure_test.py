@@ -179,7 +179,7 @@ class Measure(unittest.TestCase):
               "output.encoding=none", check=0)
         sinew("measure", run, "--arrays", "all", check=0)
         wanted = {"F": 9, "J": 1, "stretch": 3, "strain": 6, "hencky_strain": 6, "strain_eq": 1, "stress": 6,
-                  "von_mises": 1, "D2min": 1, "turnover": 1, "inverted": 1, "pose_error": 1}
+                  "stress_kirchhoff": 6, "von_mises": 1, "D2min": 1, "turnover": 1, "inverted": 1, "pose_error": 1}
         for folder in ["particles", "values"]:
             text = (run / folder / f"{folder}_000009.vtu").read_bytes().decode("latin-1")
             for name, components in wanted.items():

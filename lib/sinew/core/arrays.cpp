@@ -115,9 +115,13 @@ std::vector<WrittenArray> table_of_measured(const char* series) {
        "equivalent strain sqrt(2/3 dev H : dev H), H the Hencky strain, on request and up to "
        "200,000 particles"},
       {series, point, "stress", "Pa", tensor, real, plain,
-       "virial stress -(1/2V) sum f r with volumes and muscles, tension positive, on request"},
+       "Cauchy's (true) stress, virial -(1/2JV) sum f r with volumes and muscles, tension "
+       "positive; "
+       "none where J <= 0.05; on request"},
+      {series, point, "stress_kirchhoff", "Pa", tensor, real, plain,
+       "Kirchhoff's stress, J times the former, on request"},
       {series, point, "von_mises", "Pa", one, real, plain,
-       "von Mises stress, on request and where positions alone do not give it"},
+       "von Mises stress of Cauchy's stress, on request and where positions alone do not give it"},
       {series, point, "D2min", "m^2", one, real, plain,
        "non-affine motion of the neighbors, which F does not explain, on request"},
       {series, point, "turnover", "1", one, real, plain,

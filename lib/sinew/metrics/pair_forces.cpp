@@ -92,8 +92,8 @@ bool knows_forces(const RestBody& rest, const FrameState& state) {
          !(law.has_muscles && state.muscle_stress.empty());
 }
 
-Mat3 virial_stress(const RestBody& rest, const FrameState& state,
-                   std::span<const Neighbor> neighbors, std::size_t i) {
+Mat3 kirchhoff_stress(const RestBody& rest, const FrameState& state,
+                      std::span<const Neighbor> neighbors, std::size_t i) {
   const double range = rest.interaction_range;
   const bool has_bonds = static_cast<bool>(rest.law.bond);
   const auto nearest = rest.shape.neighbors.of(i);
@@ -125,7 +125,7 @@ Mat3 virial_stress(const RestBody& rest, const FrameState& state,
   return state.muscle_stress.empty() ? stress : Mat3(stress + state.muscle_stress[i]);
 }
 
-std::vector<Mat3> stresses(const RestBody& rest, const FrameState& state) {
+std::vector<Mat3> kirchhoff_stresses(const RestBody& rest, const FrameState& state) {
   std::vector<Mat3> found(state.positions.size(), Mat3::Constant(not_measured));
   if (!knows_forces(rest, state)) return found;
   const CellGrid grid(state.positions, rest.interaction_range);
@@ -133,10 +133,14 @@ std::vector<Mat3> stresses(const RestBody& rest, const FrameState& state) {
     std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
       find_neighbors(state.positions, grid, rest.interaction_range, i, neighbors);
-      found[i] = virial_stress(rest, state, neighbors, i);
+      found[i] = kirchhoff_stress(rest, state, neighbors, i);
     }
   });
   return found;
+}
+
+Mat3 cauchy_stress(const Mat3& kirchhoff, double J) {
+  return J > min_volume_ratio ? Mat3(kirchhoff / J) : Mat3::Constant(not_measured);
 }
 
 double von_mises(const Mat3& stress) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What acts between the particles of a frame: bonds, contacts and volumes, and the stress of them.
 //
-//     const std::vector<Mat3> stress = stresses(rest, state);
+//     const std::vector<Mat3> stress = kirchhoff_stresses(rest, state);
 //     const BondValues bonds = bond_values(rest, state);
 #pragma once
 
@@ -30,15 +30,22 @@ void find_neighbors(const Points& now, const CellGrid& grid, double range, std::
 /// Whether the body's law and the state determine all forces between particles.
 bool knows_forces(const RestBody& rest, const FrameState& state);
 
-/// The virial stress of particle i, Pa: -(1/2V) sum f (x) r over all forces between particles, with
-/// the stress of its volume and of its muscles. V is the volume that its bonds make stiff
-/// (RestBody::volume_share of V0). The forces must be known; `neighbors` are those within b at
-/// least.
-Mat3 virial_stress(const RestBody& rest, const FrameState& state,
-                   std::span<const Neighbor> neighbors, std::size_t i);
+/// Kirchhoff's stress of particle i, Pa: -(1/2V) sum f (x) r over all forces between particles,
+/// with the stress of its volume and of its muscles. V is the volume at rest that its bonds make
+/// stiff (RestBody::volume_share of V0). The forces must be known; `neighbors` are those within b
+/// at least.
+Mat3 kirchhoff_stress(const RestBody& rest, const FrameState& state,
+                      std::span<const Neighbor> neighbors, std::size_t i);
 
-/// Finds the stress of each particle; not-a-number where the forces are not known. In parallel.
-std::vector<Mat3> stresses(const RestBody& rest, const FrameState& state);
+/// Finds it for each particle; not-a-number where the forces are not known. In parallel.
+std::vector<Mat3> kirchhoff_stresses(const RestBody& rest, const FrameState& state);
+
+/// Below this volume ratio a body is crushed flat or folded, and has no true stress.
+inline constexpr double min_volume_ratio = 0.05;
+
+/// Cauchy's (true) stress, Pa, of Kirchhoff's and the volume ratio J; not-a-number for J up to
+/// min_volume_ratio.
+Mat3 cauchy_stress(const Mat3& kirchhoff, double J);
 
 /// sqrt(3/2 dev s : dev s).
 double von_mises(const Mat3& stress);

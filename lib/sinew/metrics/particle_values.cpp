@@ -112,7 +112,9 @@ void add_surroundings(ParticleValues& out, const RestBody& rest, const FrameStat
     for (std::size_t i = begin; i < end; ++i) {
       find_neighbors(now, grid, range, i, neighbors);
       count_neighbors(out, rest, now, neighbors, i);
-      if (finds_stress) out.von_mises[i] = von_mises(virial_stress(rest, state, neighbors, i));
+      if (finds_stress)
+        out.von_mises[i] =
+            von_mises(cauchy_stress(kirchhoff_stress(rest, state, neighbors, i), out.J[i]));
     }
   });
 }
@@ -196,8 +198,15 @@ Values<6> hencky(const Mat3& F) {
 }
 
 Column stress_column(std::string_view name, const RestBody& rest, const FrameState& state) {
-  const std::vector<Mat3> found = stresses(rest, state);
-  return filled<6>(name, found.size(), [&](std::size_t i) { return symmetric(found[i]); });
+  const std::vector<Mat3> found = kirchhoff_stresses(rest, state);
+  const bool is_cauchy = name == "stress";
+  return filled<6>(name, found.size(), [&](std::size_t i) {
+    if (!is_cauchy) return symmetric(found[i]);
+    const double J = rest.shape.defined(i)
+                         ? deformation_gradient(rest.shape, state.positions, i).determinant()
+                         : not_measured;
+    return symmetric(cauchy_stress(found[i], J));
+  });
 }
 
 Column inverted(std::string_view name, const std::vector<double>& J) {
@@ -241,7 +250,7 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
       columns.push_back(of_gradient<6>(name, rest, now, green_lagrange));
     else if (name == "hencky_strain")
       columns.push_back(of_gradient<6>(name, rest, now, hencky));
-    else if (name == "stress")
+    else if (name == "stress" || name == "stress_kirchhoff")
       columns.push_back(stress_column(name, rest, state));
     else {
       if (values.J.empty()) values = particle_values(rest, state);
@@ -254,7 +263,7 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
 namespace {
 
 const char* why_undefined(std::string_view name) {
-  if (name == "stress" || name == "von_mises")
+  if (name == "stress" || name == "stress_kirchhoff" || name == "von_mises")
     return "forces of muscles and of bonds that break or creep do not follow from positions alone; "
            "the run itself writes it, by output.arrays";
   if (name == "pose_error") return "no particle has a bone";

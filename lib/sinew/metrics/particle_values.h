@@ -35,7 +35,7 @@ struct ParticleValues {
   std::vector<double> turnover;      ///< (lost + gained) / neighbors at rest
   std::vector<double> pose_error;    ///< |x - q| from the rigid pose of its bone, m
   std::vector<double> weight;        ///< weight of its bone in it; empty where not known
-  /// Equivalent of the virial stress (pair_forces.h), Pa; empty where the forces are not known.
+  /// Equivalent of Cauchy's stress (pair_forces.h), Pa; empty where the forces are not known.
   std::vector<double> von_mises;
 };
 

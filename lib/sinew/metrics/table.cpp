@@ -108,7 +108,7 @@ constexpr std::array metric_table = {
     Metric{"D2min_95", "m^2", "Non-affine motion (flow) that 95 % of the particles do not exceed",
            "95 % of mean |dx - F dX|^2 over rest neighbors", &M::D2min_95},
     Metric{"von_mises_95", "Pa", "Von Mises stress that 95 % of the particles do not exceed",
-           "95 % of sqrt(3/2 dev s : dev s), s = -(1/2V) sum f (x) r", &M::von_mises_95},
+           "95 % of sqrt(3/2 dev s : dev s), s = -(1/2JV) sum f (x) r (Cauchy)", &M::von_mises_95},
     Metric{"edge_stretch_max", "", "Largest stretch or shrinkage of an edge of the surface",
            "max of l / l0 and l0 / l", &M::edge_stretch_max},
     Metric{"area_stretch_max", "", "Largest growth or shrinkage of a face of the surface",

@@ -26,9 +26,9 @@ struct ProbedValues {
 
 /// Columns: time (s), name, x, y, z (m, mean place), displacement_x, displacement_y,
 /// displacement_z (m), strain_xx to strain_xz (Green-Lagrange), stress_xx to stress_xz (Pa,
-/// virial), force_x, force_y, force_z (N: the sum of all that acts on the part from outside of the
-/// body but for its weight; of a point 0). Strains and stresses are means over the particles that
-/// have them.
+/// Cauchy's), force_x, force_y, force_z (N: the sum of all that acts on the part from outside of
+/// the body but for its weight; of a point 0). Strains and stresses are means over the particles
+/// that have them.
 class ProbeTable {
  public:
   /// Continues after `kept` frames; throws as FrameTable does.

@@ -132,7 +132,7 @@ std::span<const PlaybackField> playback_fields() {
       PlaybackField{"speed", "m/s", "Size of the velocity", &V::speed},
       PlaybackField{"J", "", "Local volume ratio; below zero inside out", &V::J},
       PlaybackField{"strain", "", "Equivalent Hencky strain: change of shape", &V::strain},
-      PlaybackField{"von Mises stress", "Pa", "Of the virial stress", &V::von_mises},
+      PlaybackField{"von Mises stress", "Pa", "Of Cauchy's stress", &V::von_mises},
       PlaybackField{"D2min", "m²", "Nonaffine motion: flow", &V::D2min},
       PlaybackField{"neighbors", "", "Particles within the interaction range", &V::neighbors},
       PlaybackField{"turnover", "", "Neighbors lost and gained, over those at rest", &V::turnover},
