@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <sinew/analysis/elastic_modes.h>
+#include <sinew/analysis/spin.h>
 #include <sinew/analysis/time_step.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
@@ -87,6 +88,8 @@ void add_sizes(const Prepared& prepared, Results& results) {
 /// How the body rings by itself.
 void add_modes(const Body& body, Results& results) {
   results.add("damping_constant", body.material.damping, "kg/s");
+  // Free bodies alone turn without their bones, but what turns with them is braked in the same way.
+  if (const double time = spin_time(body); std::isfinite(time)) results.add("spin_time", time, "s");
   const ElasticModes modes = elastic_modes(body);
   if (modes.empty()) return;
   results.add("lowest_frequency", modes.frequency() / (2 * pi), "Hz");

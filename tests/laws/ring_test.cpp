@@ -198,6 +198,38 @@ TEST(DampingRatioOfALargerBody, IsThatOfABodyThatRings) {
   }
 }
 
+/// Too thin to be coarsened: of two of its seven layers nothing is left that bends as it does.
+TEST(DampingRatioOfALargeThinBody, IsThatOfABodyThatRings) {
+  Settings settings = test::unbound(test::box_scene(25));
+  settings.material.model = MaterialModel::bonded;
+  settings.material.damping_form = DampingForm::paper;
+  settings.material.damping_ratio = 0.1;
+  const Points rest = test::fcc_box(7, 25, 101, r);
+  ASSERT_GT(rest.size(), 8000u);
+  const ElasticModes modes = elastic_modes(test::make_body(settings, rest));
+  ASSERT_FALSE(modes.empty());
+  const Ring ring = measured(settings, rest, modes.frequency());
+  EXPECT_NEAR(ring.ratio, 0.1, 0.01);
+  EXPECT_NEAR(ring.frequency, modes.frequency(), 0.03 * ring.frequency);
+}
+
+TEST(LayersAcross, AreThoseOfTheThinnestPart) {
+  const auto layers = [](const Points& rest) {
+    return layers_across(test::make_body(test::unbound(test::box_scene(25)), rest));
+  };
+  EXPECT_EQ(layers(test::fcc_box(7, 41, 41, r)), 7);
+  EXPECT_EQ(layers(test::fcc_box(9, 9, 61, r)), 9);
+  EXPECT_EQ(layers(test::fcc_box(15, 15, 15, r)), 15);
+  Points dumbbell = test::fcc_box(5, 5, 61, r);  // between thick ends
+  for (const Vec3& place : test::fcc_box(17, 17, 13, r)) {
+    const Vec3 shifted = place - Vec3(6, 7, 13) * std::sqrt(2.0) * r;
+    dumbbell.push_back(shifted);
+  }
+  const double found = layers(dumbbell);
+  EXPECT_GE(found, 5);
+  EXPECT_LE(found, 7);
+}
+
 /// Still larger ones ring as a coarser packing of them does, nearly.
 TEST(CoarseBody, RingsNearlyAsTheBodyItself) {
   for (const int planes : {17, 19})

@@ -20,7 +20,9 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr Eigen::Index kept_modes = 6, answers = 4;  // see ModeFinder::widen()
-constexpr double max_particles = 8'000;              // still larger ones are coarsened to that many
+constexpr double max_particles = 8'000;              // larger bodies are coarsened to that many ...
+constexpr double min_layers = 9;                     // ... as long as they keep these across
+constexpr double max_iterated = 200'000;             // particles: more take gigabytes and minutes
 constexpr std::size_t min_bonds = 3;                 // fewer do not hold a particle
 constexpr int max_rounds = 60, order = 3;            // of the polynomials to begin with
 constexpr double converged = 1e-4;                   // of eigenvalues
@@ -231,6 +233,35 @@ ElasticModes coarse_modes(const Body& body, int times) {
 
 }  // namespace
 
+double layers_across(const Body& body) {
+  const SharedNeighbors shared = neighbors_of(body);
+  const NeighborLists& near = shared->nearest;
+  const std::size_t n = body.rest.size();
+  std::vector<std::uint32_t> order;  // from the surface inward
+  std::vector<int> depth(n, -1);
+  order.reserve(n);
+  const auto reach = [&](std::uint32_t i, int layer) {
+    if (depth[i] >= 0) return;
+    depth[i] = layer;
+    order.push_back(i);
+  };
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (near.of(i).size() < max_neighbors_at_rest) reach(i, 0);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (const std::uint32_t j : near.of(order[k])) reach(j, depth[order[k]] + 1);
+  // The deepest layer inward of each particle, by two hops at a time: below a corner, the next
+  // layer is no neighbor.
+  std::vector<int> deepest = depth;
+  for (auto i = order.rbegin(); i != order.rend(); ++i)
+    for (const std::uint32_t j : near.of(*i))
+      for (const std::uint32_t k : near.of(j))
+        if (depth[k] > depth[*i]) deepest[*i] = std::max(deepest[*i], deepest[k]);
+  if (deepest.empty()) return 0;
+  const auto thin = deepest.begin() + static_cast<std::ptrdiff_t>(n / 10);
+  std::nth_element(deepest.begin(), thin, deepest.end());
+  return 2.0 * *thin + 1;
+}
+
 double ElasticModes::frequency() const { return empty() ? 0 : std::sqrt(squared[0]); }
 
 double ElasticModes::damping_ratio(double damping) const {
@@ -270,8 +301,11 @@ double ElasticModes::damping_for(double ratio) const {
 }
 
 ElasticModes elastic_modes(const Body& body) {
+  const auto count = static_cast<double>(body.rest.size());
   int times = 1;
-  while (static_cast<double>(body.rest.size()) / std::pow(times, 3) > max_particles) ++times;
+  while (count / std::pow(times, 3) > max_particles) ++times;
+  if (times > 1) times = std::clamp(static_cast<int>(layers_across(body) / min_layers), 1, times);
+  if (count / std::pow(times, 3) > max_iterated) return {};
   return times == 1 ? modes_of(body, false) : coarse_modes(body, times);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a body rings by itself: its lowest elastic modes without bones and surroundings, and how eq.
-// 2 damps them, from the forces of its own particles about rest; of bodies over 8,000 particles,
-// those of a coarser packing of the same shape.
+// 2 damps them, from the forces of its own particles about rest; of bodies over 8,000 particles and
+// thicker than 18 layers, those of a coarser packing of the same shape.
 //
 //     const ElasticModes modes = elastic_modes(body);
 //     body.material.damping = modes.damping_for(0.1);
@@ -27,8 +27,13 @@ struct ElasticModes {
   double damping_for(double ratio) const;
 };
 
-/// Finds the modes of the body's largest connected part.
+/// Finds the modes of the body's largest connected part; none of a body of more than 200,000
+/// particles that is too thin to be coarsened to so many.
 ElasticModes elastic_modes(const Body& body);
+
+/// Number of layers of particles across the thinnest tenth of a packed body: from its surface to
+/// the deepest particle below, and out again.
+double layers_across(const Body& body);
 
 /// The same body of fewer particles, `times` as large, in FCC packing along its axes, without
 /// bones and world: each site stands for the particles that are nearest to it. Its material has the
