@@ -173,7 +173,7 @@ def sections_of(whole):
     return sections
 
 
-CHECKPOINT_VERSION = 6
+CHECKPOINT_VERSION = 7
 
 
 def sealed(sections, magic=b"SINEWCKP", mark=0x01020304, version=CHECKPOINT_VERSION):

@@ -50,6 +50,17 @@ Checkpoint sample(bool single = false) {
   return sample;
 }
 
+/// The same in the middle of an increment of a load.
+Checkpoint sample_within_increment(bool single) {
+  Checkpoint made = sample(single);
+  SimulationState begun = made.state;
+  begun.steps = 12;
+  begun.relaxation.at_rest = 3;
+  made.state.increment_begun = std::make_shared<const SimulationState>(begun);
+  made.state.relaxation = {3, 40, 50, 2, 0.25, 0.125, 0.5, 1, 2, 3, 4, 5};
+  return made;
+}
+
 class CheckpointFile : public Scratch {
  protected:
   std::filesystem::path file() const { return folder / "a.bin"; }
@@ -120,11 +131,26 @@ TEST_F(CheckpointFile, WithARightChecksumAndAnyByteWrongNeverDoesHarm) {
   }
 }
 
+TEST_F(CheckpointFile, KeepsWhereAnIncrementBegan) {
+  for (const bool single : {false, true}) {
+    const Checkpoint written = sample_within_increment(single);
+    write_checkpoint(file(), written);
+    const Checkpoint read = read_checkpoint(file(), particles);
+    ASSERT_TRUE(read.state.increment_begun);
+    EXPECT_EQ(read.state.increment_begun->steps, 12);
+    EXPECT_EQ(read.state.increment_begun->relaxation.at_rest, 3);
+    EXPECT_EQ(read.state.increment_begun->moving.index(), single ? 1u : 0u);
+    EXPECT_EQ(read.state.relaxation.spent, 50);
+    EXPECT_EQ(read.state.relaxation.increment, 0.125);
+    EXPECT_EQ(bytes_of(read), bytes_of(written));
+  }
+}
+
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 7;
-  expect_refused(resealed(other), {"version 7, not 6"});
+  other[12] = 8;
+  expect_refused(resealed(other), {"version 8, not 7"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});
@@ -139,8 +165,8 @@ TEST_F(CheckpointFile, OfAnOlderVersionIsRefusedWithTheSinewThatWroteIt) {
   Checkpoint older = sample();
   older.run.program = "0.4.2";
   std::string bytes = bytes_of(older);
-  bytes[12] = 5;
-  expect_refused(resealed(bytes), {"version 5, not 6", "sinew '0.4.2'", "--force"});
+  bytes[12] = 6;
+  expect_refused(resealed(bytes), {"version 6, not 7", "sinew '0.4.2'", "--force"});
 }
 
 TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {

@@ -83,6 +83,65 @@ TEST(Relaxation, EndsWhereADampedMotionDoes) {
   EXPECT_GT(test::largest_distance(relaxed.particles(), particles_at(machine.rest, r, 1)), 0.1 * r);
 }
 
+/// A bar of 45 layers, pressed by this fraction of its length within a second.
+Machine pressed(double fraction) {
+  Machine machine(bonded);
+  machine.rest = test::fcc_box(9, 9, 45, r);
+  const Vec3 pivot(0, 0, machine.rest.back().z());
+  machine.world.supports = {
+      {"clamp", machine.bottom()},
+      {"grip", machine.top(), {true, true, true}, moving(pivot, -fraction * pivot), pivot}};
+  return machine;
+}
+
+double force_at(Simulation& simulation) { return simulation.support_reactions()[1].force.z(); }
+
+TEST(Relaxation, FarLoadsAreAppliedInIncrementsThatLeaveNoDoubt) {
+  for (const double fraction : {0.05, 0.1, 0.2}) {
+    Simulation at_once = pressed(fraction).at_rest({1, 2, 1e-6, 200'000, {250}, 250});
+    Simulation slowly =
+        pressed(fraction).at_rest({0.05, 21, 1e-6, 200'000, std::vector<int>(20, 250), 250});
+    EXPECT_NEAR(force_at(at_once), force_at(slowly), 1e-5 * std::abs(force_at(slowly)));
+    EXPECT_EQ(at_once.relaxation()->last().increments > 1, fraction > 0.05);
+    EXPECT_EQ(at_once.relaxation()->last().inverted, 0u);
+    EXPECT_EQ(slowly.relaxation()->last().increments, 1);
+    EXPECT_LT(test::largest_distance(at_once.particles(), slowly.particles()), 1e-4 * r);
+  }
+}
+
+TEST(Relaxation, IncrementsGoOnWithTheSameBitsWhereverTheyAreResumed) {
+  const LoadSteps steps = {1, 2, 1e-6, 200'000, {250}, 250};
+  Simulation whole = pressed(0.2).at_rest(steps);
+  for (const int at : {100, 400, 1200}) {
+    Simulation first = pressed(0.2).relaxing(steps);
+    for (int k = 0; k < at; ++k) first.step();
+    Simulation second = pressed(0.2).relaxing(steps);
+    second.restore(first.save());
+    while (!second.relaxation()->done()) second.step();
+    EXPECT_EQ(hash_of(second.particles()), hash_of(whole.particles())) << at;
+    EXPECT_EQ(second.relaxation()->last().iterations, whole.relaxation()->last().iterations);
+  }
+}
+
+TEST(Relaxation, AGripThatCarriesABodyAlongFeelsNothing) {
+  for (const Precision precision : test::precisions) {
+    Machine machine(bonded);
+    machine.settings.solver.precision = precision;
+    const Vec3 pivot(0, 0, machine.rest.back().z()), way(0, 0.3, 2);
+    machine.world.supports = {
+        {"grip", machine.top(), {true, true, true}, moving(pivot, way), pivot}};
+    LoadSteps steps{0.25, 5, 1e-6, 200'000, std::vector<int>(4, 400), 50};
+    steps.acceptable = 1e-4;
+    if (precision == Precision::binary32) steps.residual = 1e-2;
+    const Simulation simulation = machine.at_rest(steps);
+    const Particles lifted = particles_at(machine.rest, r, 1);
+    const double tolerance = precision == Precision::binary32 ? 0.02 : 1e-6;
+    for (std::size_t i = 0; i < lifted.size(); ++i)
+      EXPECT_LT((simulation.particles().position(i) - lifted.position(i) - way).norm(),
+                tolerance * r);
+  }
+}
+
 TEST(Relaxation, ARollerHasNoForceAlongItsFreeAxes) {
   Machine machine = cantilever();
   machine.world.supports.push_back({"roller", machine.top(), {false, true, false}});

@@ -14,6 +14,7 @@ import unittest
 from pathlib import Path
 
 import small_run
+from bars import write_box
 
 SOURCE = small_run.SOURCE
 E = 1e5
@@ -39,6 +40,17 @@ loads:
 probes:
   - {name: end, facing: [0, 0, 1]}
 """
+
+SLENDER = """
+body: {{mesh: {mesh}, radius: 0.01}}
+material: {{model: bonded, young_modulus: 1e5}}
+solver: {{method: static, duration: 1}}
+output: {{interval: 1}}
+supports:
+  - {{name: base, facing: [0, 0, -1]}}
+  - {{name: top, facing: [0, 0, 1], keys: [{{time: 0}}, {{time: 1, translation: [0, 0, {way}]}}]}}
+"""
+LAYER = 0.01 * 2 ** 0.5
 
 sinew = functools.partial(small_run.sinew, check=0)
 
@@ -141,6 +153,38 @@ class Static(unittest.TestCase):
         self.assertIn("make the load", asked.stderr)
         hidden = self.run_scene(CLAMP.replace("FORCE", "1e-12"), "--force", check=3)
         self.assertIn("rounding", hidden.stderr)
+
+    def test_frames_do_not_depend_on_the_interval(self):
+        """Pressed by 5 and 10 % of the length at once, a slender bar could fold."""
+        for fraction in (0.05, 0.1):
+            press = SLENDER.format(mesh=self.folder / "slender.obj", way=-fraction * 45 * LAYER)
+            write_box(self.folder / "slender.obj", 9 * LAYER, 45 * LAYER)
+            (self.folder / "press.yaml").write_text(press)
+            forces = []
+            for count in (1, 10):
+                sinew("simulate", self.folder / "press.yaml", "-o", self.out, "--force", "--set",
+                      f"output.interval=1/{count}")
+                forces.append([float(row["force_z"]) for row in self.rows("supports.csv") if row["name"] == "top"][-1])
+                self.assertEqual(self.record()["load_steps"][-1]["inverted"], 0)
+            self.assertAlmostEqual(forces[0] / forces[1], 1, 5)
+            # E A times the strain, within what clamped ends and layers at the surface add
+            self.assertAlmostEqual(-forces[0] / (E * (9 * LAYER) ** 2 * fraction), 1, delta=0.15)
+
+    def test_what_is_folded_is_not_to_be_trusted(self):
+        write_box(self.folder / "slender.obj", 9 * LAYER, 45 * LAYER)
+        (self.folder / "press.yaml").write_text(
+            SLENDER.format(mesh=self.folder / "slender.obj", way=-0.45 * 45 * LAYER))
+        folded = small_run.sinew("simulate", self.folder / "press.yaml", "-o", self.out)
+        self.assertIn(folded.returncode, (0, 3))
+        if folded.returncode == 0:
+            self.assertIn("not to be trusted", folded.stderr)
+
+    def test_a_grip_that_lifts_a_body_feels_nothing(self):
+        self.run_scene("supports:\n  - name: grip\n    facing: [0, 0, 1]\n    keys: [{time: 0}, "
+                       "{time: 0.4, translation: [0.1, 0, 0.5]}]")
+        end = [row for row in self.rows("supports.csv") if row["time"] == "0.4"][0]
+        self.assertLess(max(abs(float(end["force_" + axis])) for axis in "xyz"), 1e-6)
+        self.assertAlmostEqual(float(end["displacement_z"]), 0.5, 9)
 
     def test_check_tells_iterations_instead_of_steps(self):
         said = sinew("check", self.scene(CLAMP.replace("FORCE", "5"))).stdout

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -75,7 +76,11 @@ struct FixedPointUnits {
 /// State of a body that is brought to rest at one moment after another.
 struct RelaxationState {
   std::int64_t at_rest = 0;     ///< moments at which it has been
-  std::int64_t iterations = 0;  ///< for the next of them
+  std::int64_t iterations = 0;  ///< in the present increment of the way to the next of them
+  std::int64_t spent = 0;       ///< in increments before it, those given up included
+  std::int64_t increments = 0;  ///< accepted on that way
+  double reached = 0;           ///< fraction of that way where it was at rest last
+  double increment = 1;         ///< fraction of it that is tried now
   double shortened = 1;         ///< factor on the step
   double damping = 0;           ///< c, 1/s
   double pushed = 0;            ///< a.v after the last iteration, m^2/s^3
@@ -119,6 +124,8 @@ struct SimulationState {
   std::vector<double> branch_clocks;
   std::vector<double> branch_stretches;
   RelaxationState relaxation = {};
+  /// Where the present increment began; none: here, or nothing relaxes.
+  std::shared_ptr<const SimulationState> increment_begun = {};
   /// Terms of each group: how many, then their coefficients of places (m) and of velocities.
   std::vector<double> groups = {};
   std::vector<std::int32_t> grouping = {};  ///< by particle id, where groups change

@@ -18,28 +18,22 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
-constexpr std::uint32_t format_version = 6;
+constexpr std::uint32_t format_version = 7;
 constexpr std::size_t name_size = 8;
-// Bonds: 18 neighbors at rest, from both sides; branches of them; positions, velocities, order.
+// Twice, where a load is applied in increments. Bonds: 18 neighbors at rest, from both sides;
+// branches of them; positions, velocities, order.
 constexpr std::size_t max_before_count = 4096;  // bytes
-constexpr std::uint64_t max_bytes_per_particle = 1280, max_bytes_beside = 1 << 20;
+constexpr std::uint64_t max_bytes_per_particle = 2560, max_bytes_beside = 1 << 20;
 
 Error no_checkpoint(const std::string& what) {
   return bad_input(what, "remove the file to go on from an older checkpoint");
 }
 
-/// Visits all values of a checkpoint in the order of the file, for both the writer and the reader:
-/// archive(name, value or list of values).
+// Visit all values in the order of the file, for both the writer and the reader: archive(name,
+// value or list of values).
+
 template <class State, class Archive>
-void serialize_checkpoint(Archive& archive, State& checkpoint) {
-  auto& run = checkpoint.run;
-  auto& state = checkpoint.state;
-  archive("program", run.program);
-  archive("scene", run.scene);
-  archive("body", run.body);
-  archive("motion", run.motion);
-  archive("count", run.particles);
-  archive("timestep", run.time_step);
+void serialize_state(Archive& archive, State& state) {
   archive("steps", state.steps);
   for (auto* ledger : {&state.ledger, &state.world_ledger}) serialize(archive, *ledger);
   archive("heldkin", state.held_at_start);
@@ -64,6 +58,10 @@ void serialize_checkpoint(Archive& archive, State& checkpoint) {
   archive("stretch", state.branch_stretches);
   archive("atrest", state.relaxation.at_rest);
   archive("iterate", state.relaxation.iterations);
+  archive("spent", state.relaxation.spent);
+  archive("incrmnts", state.relaxation.increments);
+  archive("reached", state.relaxation.reached);
+  archive("incrmnt", state.relaxation.increment);
   archive("shorter", state.relaxation.shortened);
   archive("damping", state.relaxation.damping);
   archive("pushed", state.relaxation.pushed);
@@ -78,6 +76,30 @@ void serialize_checkpoint(Archive& archive, State& checkpoint) {
   archive("merging", state.regrouping.lost);
   archive("still", state.regrouping.still_since);
   archive("pressed", state.pressed);
+}
+
+template <class State, class Archive>
+void serialize_checkpoint(Archive& archive, State& checkpoint) {
+  auto& run = checkpoint.run;
+  archive("program", run.program);
+  archive("scene", run.scene);
+  archive("body", run.body);
+  archive("motion", run.motion);
+  archive("count", run.particles);
+  archive("timestep", run.time_step);
+  serialize_state(archive, checkpoint.state);
+  auto& begun = checkpoint.state.increment_begun;
+  bool has_begun = begun != nullptr;
+  archive("hasbegun", has_begun);
+  if (!has_begun) return;
+  SimulationState of_begin;
+  if (begun)
+    of_begin = *begun;
+  else if (std::holds_alternative<MovingInSingle>(checkpoint.state.moving))
+    of_begin.moving = MovingInSingle();
+  serialize_state(archive, of_begin);
+  if constexpr (!std::is_const_v<State>)
+    begun = std::make_shared<const SimulationState>(std::move(of_begin));
 }
 
 template <class Value>

@@ -79,4 +79,8 @@ double local_volume_stiffness(const Material& material, double relative, double 
 /// The material once its branches have relaxed, without them.
 Material long_term(Material material);
 
+/// Throws bad input unless a body of the one material may go on as one of the other: constants that
+/// are finite and not negative, and the same model, particles and kinds of bonds.
+void check_variant(const Material& now, const Material& next);
+
 }  // namespace sinew

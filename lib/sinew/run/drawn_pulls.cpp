@@ -75,9 +75,8 @@ std::vector<DrawnPull> DrawnPulls::at(const RunFrame& frame) const {
     const BonePull pull =
         bone_pull(springs_[b], one.influence, bone, pose[b],
                   {one.rest, position, Vec3::Zero(), run_->body.particles.radius});
-    pulls.push_back({one.particle, one.influence.bone,
-                     pose[b].carried(one.influence.foot_on(bone), bone), position, pull.radial,
-                     pull.twist, pull.axial});
+    pulls.push_back({one.particle, one.influence.bone, carried_foot(one.influence, bone, pose[b]),
+                     position, pull.radial, pull.twist, pull.axial});
   }
   return pulls;
 }

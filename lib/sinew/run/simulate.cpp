@@ -258,8 +258,19 @@ class Run {
     log_.frame(frame, time);
     if (frame == 0)  // a run may end at any moment: the state is there from the first frame on
       writer_->then([this] { return [this] { write_state(); }; });
-    if (const Relaxation* relaxation = simulation_->relaxation())
+    if (const Relaxation* relaxation = simulation_->relaxation()) {
       log_.load_step(frame, relaxation->last());
+      if (relaxation->last().inverted > inverted_.particles)
+        inverted_ = {relaxation->last().inverted, time};
+    }
+  }
+
+  void warn_of_inverted() const {
+    if (inverted_.particles == 0) return;
+    warn("at " + three_digits(inverted_.time) + " s " + std::to_string(inverted_.particles) +
+         " of " + std::to_string(simulation_->body().rest.size()) +
+         " particles are inverted: this equilibrium is not to be trusted; make the load smaller, "
+         "or body.radius");
   }
 
   void report(int frame) const {
@@ -295,6 +306,7 @@ class Run {
       for (const std::string& name : probes->unknown())
         warn("probe " + shown(name) + " has no strain in some frames: its particles have too few " +
              "neighbors; place it where the body is thicker");
+    warn_of_inverted();
     if (writer_->written() > 0) write_state();
     log_.spend("writing", watch.lap());
   }
@@ -316,6 +328,10 @@ class Run {
   RunLog& log_;
   RunCheckpoints& checkpoints_;
   Schedule schedule_;
+  struct {
+    std::size_t particles = 0;
+    double time = 0;  ///< s
+  } inverted_;        ///< in the worst equilibrium
   std::optional<Simulation> simulation_;
   std::optional<EngineSteps> elsewhere_;
   std::optional<FrameWriter> writer_;

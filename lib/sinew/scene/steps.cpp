@@ -76,16 +76,22 @@ struct BoneEnds {
   Vec3 head, tail;
 };
 
-/// How fast a support carries what it holds, m/s.
-double speed_of(const Support& support, const ObstaclePose& now, const Points& rest) {
+/// The farthest from its pivot that a support holds a particle, m.
+double reach_of(const Support& support, const Points& rest) {
   double reach = 0;
   for (const std::uint32_t i : support.particles)
     reach = std::max(reach, (rest[i] - support.pivot).norm());
-  return now.velocity.norm() + now.angular_velocity.norm() * reach;
+  return reach;
 }
 
-/// How fast bones move at moments one after the other, as their velocities say, and as their ends
-/// have moved since the last; and supports, as their velocities say.
+/// The farthest that a frame carries what is within reach of it, m.
+double carried(const ObstaclePose& from, const ObstaclePose& to, double reach) {
+  const Mat3 turn = to.frame.rotation * from.frame.rotation.transpose();
+  return (to.frame.origin - from.frame.origin).norm() + Eigen::AngleAxisd(turn).angle() * reach;
+}
+
+/// How fast bones and supports move at moments one after the other, as their velocities say, and as
+/// they have moved since the last: those of a body that is brought to rest have no velocities.
 class Speedometer {
  public:
   /// Before the first moment, at 0, bones were at rest for `between` s: they may begin elsewhere.
@@ -97,6 +103,9 @@ class Speedometer {
         poses_(prepared.body.skeleton, prepared.motion),
         time_(-between) {
     for (const Bone& bone : skeleton_.bones) last_.push_back({bone.head(), bone.tail()});
+    if (!world_) return;
+    for (const Support& support : world_->supports)
+      reach_of_supports_.push_back(reach_of(support, rest_));
   }
 
   /// The fastest that any particle is carried, m/s.
@@ -111,17 +120,25 @@ class Speedometer {
                           pose[b].velocity_at(ends.tail).norm() + spin, moved(b, ends, time)});
       last_[b] = ends;
     }
+    fastest = std::max(fastest, speed_of_supports(time, pose));
     time_ = time;
-    return std::max(fastest, speed_of_supports(time, pose));
+    return fastest;
   }
 
  private:
-  double speed_of_supports(double time, const Pose& pose) const {
+  double speed_of_supports(double time, const Pose& pose) {
     if (!world_) return 0;
+    std::vector<ObstaclePose> now;
     double fastest = 0;
-    for (const Support& support : world_->supports)
-      if (support.motion)
-        fastest = std::max(fastest, speed_of(support, support.motion(time, pose), rest_));
+    for (std::size_t k = 0; k < world_->supports.size(); ++k) {
+      const ObstacleMotion& motion = world_->supports[k].motion;
+      now.push_back(motion ? motion(time, pose) : ObstaclePose{});
+      const double reach = reach_of_supports_[k];
+      fastest = std::max(fastest, now[k].velocity.norm() + now[k].angular_velocity.norm() * reach);
+      if (!last_supports_.empty())
+        fastest = std::max(fastest, carried(last_supports_[k], now[k], reach) / (time - time_));
+    }
+    last_supports_ = std::move(now);
     return fastest;
   }
 
@@ -135,7 +152,9 @@ class Speedometer {
   const Points& rest_;
   std::vector<double> reach_;
   PoseCursor poses_;
+  std::vector<double> reach_of_supports_;  ///< m
   std::vector<BoneEnds> last_;
+  std::vector<ObstaclePose> last_supports_;
   double time_;  ///< of the last, s
 };
 
@@ -246,6 +265,7 @@ LoadSteps load_steps_of(const Settings& settings, const Prepared& prepared) {
   steps.residual = settings.solver.residual.value_or(single ? 1e-2 : 1e-6);
   steps.acceptable = settings.solver.residual ? 0 : 1e-4;
   const double crossing = crossings * crossing_time(prepared.body) / prepared.steps.step;
+  steps.min_ramp = static_cast<int>(std::clamp(std::ceil(crossing), 1.0, 1e8));
   for (const double speed : prepared.bone_speeds) {
     const int frame = static_cast<int>(steps.ramp.size());
     const bool loads = changes(prepared.body, frames.at(frame), frames.at(frame + 1));

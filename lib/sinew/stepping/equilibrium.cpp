@@ -18,8 +18,25 @@ namespace {
 constexpr double shortest = 1.0 / 64;  // of the step, before a body counts as unstable
 // Fraction of the shear beyond yield that flows in an iteration.
 constexpr double flow_fraction = 0.1;
-constexpr double near_rounding = 20;  // times the noise, which is an estimate
-constexpr double at_rounding = 3;     // times the noise: forces that are nothing else
+// Increments of the way from one moment to the next, in parts of it.
+constexpr double shortest_increment = 1.0 / 16;
+constexpr double longer_by = 2, shorter_by = 0.25;  // at most
+constexpr double margin = 0.8;                      // of the strain that an increment may have
+constexpr double near_rounding = 20;                // times the noise, which is an estimate
+constexpr double at_rounding = 3;                   // times the noise: forces that are nothing else
+// Times the noise: forces of supports and bones where nothing loads a body, as that of a grip which
+// carries it along.
+constexpr double free_of_force = 1e3;
+// Between two moments increments only show the way: they end with this residual, or after so many
+// times the iterations of their ramp.
+constexpr double residual_between = 1e-2;
+constexpr int patience_between = 8;
+
+/// Factor on an increment that strained a body so, for the next one; up to `longest`.
+double allowed(double strain, double longest) {
+  if (!(strain > 0)) return longest;
+  return std::clamp(margin * max_strain_of_increment / strain, shorter_by, longest);
+}
 
 ObstacleMotion standing(const ObstacleMotion& motion) {
   if (!motion) return motion;
@@ -59,7 +76,18 @@ Relaxation::Relaxation(LoadSteps steps, const Iteration& iteration)
 
 int Relaxation::ramp() const {
   const auto next = static_cast<std::size_t>(now_.at_rest);
-  return next == 0 || next > steps_.ramp.size() ? 1 : steps_.ramp[next - 1];
+  const int whole = next == 0 || next > steps_.ramp.size() ? 1 : steps_.ramp[next - 1];
+  const auto part = static_cast<int>(std::ceil(whole * now_.increment));
+  return std::max(part, std::min(whole, steps_.min_ramp));
+}
+
+bool Relaxation::strain_is_due() const {
+  constexpr int rarely = 100;
+  return now_.at_rest > 0 && now_.iterations % std::max(ramp(), rarely) == 0;
+}
+
+bool Relaxation::is_last_increment() const {
+  return now_.at_rest == 0 || now_.reached + now_.increment > 1 - shortest_increment / 2;
 }
 
 /// In intervals.
@@ -73,7 +101,9 @@ double Relaxation::time() const {
   if (now_.at_rest == 0) return 0;
   const double passed = static_cast<double>(now_.iterations) / ramp();
   const double from = moment(now_.at_rest - 1), length = moment(now_.at_rest) - from;
-  return steps_.interval * (from + length * std::min(passed, 1.0));
+  const double end = is_last_increment() ? 1 : now_.reached + now_.increment;
+  const double path = now_.reached + (end - now_.reached) * std::min(passed, 1.0);
+  return steps_.interval * (from + length * path);
 }
 
 double Relaxation::keep() const {
@@ -84,7 +114,9 @@ double Relaxation::keep() const {
 double Relaxation::reference() const { return std::max(now_.largest, now_.applied); }
 
 double Relaxation::residual() const {
-  return reference() > noise_ ? now_.unbalanced / reference() : 0;
+  const bool is_rounding =
+      now_.unbalanced <= at_rounding * noise_ && reference() < free_of_force * noise_;
+  return reference() > noise_ && !is_rounding ? now_.unbalanced / reference() : 0;
 }
 
 /// The Rayleigh quotient of the last motion, which the change of the accelerations gives.
@@ -105,9 +137,14 @@ bool Relaxation::is_at_rest(const Imbalance& sums) const {
     if (sums.loaded > 0 && sums.unbalanced <= at_rounding * noise_) refuse_noise();
     return sums.unbalanced <= at_rounding * noise_;
   }
-  const double wanted = steps_.residual * reference();
+  const double residual =
+      is_last_increment() ? steps_.residual : std::max(steps_.residual, residual_between);
+  const double wanted = residual * reference();
   if (wanted >= noise_) return sums.unbalanced <= wanted;
-  if (steps_.acceptable * reference() < at_rounding * noise_) refuse_noise();
+  const bool is_hidden = steps_.acceptable * reference() < at_rounding * noise_;
+  const bool is_free = sums.loaded == 0 && reference() < free_of_force * noise_;
+  const bool may_vanish = sums.loaded == 0 && sums.unbalanced > at_rounding * noise_;
+  if (is_hidden && !is_free && !may_vanish) refuse_noise();
   return sums.unbalanced <= at_rounding * noise_;
 }
 
@@ -123,17 +160,42 @@ bool Relaxation::take(const StepSums& sums) {
 bool Relaxation::judge(const StepSums& sums) {
   now_.unbalanced = sums.imbalance.unbalanced;
   now_.applied = sums.imbalance.applied;
-  if (now_.iterations >= ramp() && is_at_rest(sums.imbalance)) {
-    now_.largest = reference();
-    last_ = {now_.iterations, residual()};
-    ++now_.at_rest;
-    now_.iterations = 0;
-    now_.damping = now_.pushed = 0;
-    return true;
-  }
-  if (now_.iterations >= steps_.max_iterations) give_up();
+  if (now_.iterations >= ramp() && is_at_rest(sums.imbalance)) return true;
+  if (!is_last_increment() && now_.iterations >= patience_between * ramp()) return true;
+  if (now_.spent + now_.iterations >= steps_.max_iterations) give_up();
   find_damping(sums.imbalance);
   return false;
+}
+
+void Relaxation::accept(const IncrementStrain& found) {
+  const bool is_there = is_last_increment();
+  now_.largest = reference();
+  now_.spent += now_.iterations;
+  ++now_.increments;
+  if (is_there) {
+    last_ = {now_.spent, now_.increments, residual(), found.inverted};
+    ++now_.at_rest;
+  }
+  now_.reached = is_there ? 0 : now_.reached + now_.increment;
+  if (is_there) now_.spent = now_.increments = 0;
+  const double longest = now_.increment * allowed(found.strain, longer_by);
+  const double left = 1 - now_.reached;
+  now_.increment = left / std::ceil(left / std::min(longest, left));
+  now_.iterations = 0;
+  now_.damping = now_.pushed = 0;
+}
+
+bool Relaxation::is_too_large(const IncrementStrain& found, std::size_t before) const {
+  const double whole = is_last_increment() ? 1 - now_.reached : now_.increment;
+  if (now_.at_rest == 0 || whole < 1.5 * shortest_increment) return false;
+  return found.strain > max_strain_of_increment || found.inverted > before;
+}
+
+RelaxationState Relaxation::shorter(RelaxationState begun, double strain) const {
+  begun.spent = now_.spent + now_.iterations;
+  begun.increment =
+      std::max(shortest_increment, now_.increment * std::min(0.5, allowed(strain, longer_by)));
+  return begun;
 }
 
 bool Relaxation::shorten() {
@@ -162,8 +224,9 @@ void Relaxation::give_up() const {
   const bool near_noise = now_.unbalanced < near_rounding * noise_;
   throw Error(Exit::unstable,
               moment_text() + " is not in equilibrium: the residual is " +
-                  three_digits(residual()) + " after " + std::to_string(now_.iterations) +
-                  " iterations, not " + three_digits(steps_.residual) +
+                  three_digits(residual()) + " after " +
+                  std::to_string(now_.spent + now_.iterations) + " iterations, not " +
+                  three_digits(steps_.residual) +
                   (near_noise ? "; rounding may leave no less: make the load or solver.residual "
                                 "larger, or in single precision set solver.precision to double"
                               : "; make solver.iterations larger and resume, or make "
@@ -175,7 +238,9 @@ void Relaxation::restore(const RelaxationState& state) {
                        state.iterations >= 0 && state.iterations <= std::numeric_limits<int>::max();
   const bool known = is_computable(state.damping) && is_computable(state.pushed) &&
                      is_computable(state.largest) && is_computable(state.applied) &&
-                     is_computable(state.unbalanced);
+                     is_computable(state.unbalanced) && state.spent >= 0 && state.increments >= 0 &&
+                     state.reached >= 0 && state.reached < 1 && state.increment > 0 &&
+                     state.increment <= 1;
   if (!counted || !known || !(state.shortened > 0 && state.shortened <= 1))
     throw not_a_state("its way to rest is none");
   now_ = state;

@@ -31,6 +31,7 @@ struct LoadSteps {
   /// Before each moment, how many iterations bones and surroundings take to get there from the one
   /// before; none: one each.
   std::vector<int> ramp = {};
+  int min_ramp = 1;  ///< iterations for a part of that way, where the whole takes as many
   /// A residual that rounding may leave where it hides the one above; 0: none.
   double acceptable = 0;
   double last = 1;  ///< the length of the last interval, in whole ones
@@ -43,11 +44,25 @@ inline constexpr double relaxing_step_factor = 0.8;
 /// branches, which have relaxed; and in a world in which everything stands still at each moment.
 Body undamped(Body body);
 
-/// How a body came to rest.
+/// How a body came to rest at a moment.
 struct Equilibrium {
-  std::int64_t iterations = 0;
+  std::int64_t iterations = 0;  ///< since the moment before
+  std::int64_t increments = 1;  ///< of the way from there
   double residual = 0;
+  std::size_t inverted = 0;  ///< particles
 };
+
+/// How an increment has strained a body.
+struct IncrementStrain {
+  double strain = 0;         ///< largest change of a pair's length over that length
+  std::size_t inverted = 0;  ///< particles that are, after it
+};
+
+/// A change of a pair's length, over that length, that leaves no doubt which equilibrium follows
+/// which: a bar that is pressed by far more at once may fold instead.
+inline constexpr double max_strain_of_increment = 0.05;
+/// Times that strain, at which one is given up on the way: there it is not at rest yet.
+inline constexpr double strain_while_moving = 3;
 
 /// The pose without its velocities: what relaxes stands still, and so do its bones.
 void stop(Pose& pose);
@@ -68,6 +83,9 @@ class Relaxation {
   double time() const;
   double step() const { return step_ * now_.shortened; }  ///< s
   double keep() const;  ///< the fraction of the velocities that it leaves
+  /// Whether to look at the strain on the way: where bones and surroundings have just come to the
+  /// end of the increment, and after as many iterations again.
+  bool strain_is_due() const;
   /// Moments at which the body has been at rest.
   int moments() const { return static_cast<int>(now_.at_rest); }
   /// At the last of them.
@@ -83,6 +101,14 @@ class Relaxation {
   /// take() throws.
   Outcome iterate(Stepper& stepper, const TimedPose& still, std::vector<Offender>& offenders);
 
+  /// Goes on to the next increment, or from the moment that is reached, as long as `found` allows.
+  void accept(const IncrementStrain& found);
+  /// Whether an increment that strained the body so is to be given up for a shorter one; `before`:
+  /// particles that were inverted where it began.
+  bool is_too_large(const IncrementStrain& found, std::size_t before) const;
+  /// Where the increment began, to be tried by a shorter one, given what the longer one `found`.
+  RelaxationState shorter(RelaxationState begun, double strain) const;
+
   /// Takes what the step found. Whether the body is at rest where it began: the step must not be
   /// accepted then. Throws Error (unstable) that says why the residual cannot be reached, or has
   /// not been in the number of iterations.
@@ -95,6 +121,7 @@ class Relaxation {
 
  private:
   int ramp() const;
+  bool is_last_increment() const;
   double moment(std::int64_t index) const;
   bool judge(const StepSums& sums);
   void find_damping(const Imbalance& sums);

@@ -16,6 +16,7 @@
 #include <sinew/groups/make_grouping.h>
 #include <sinew/stepping/detail/cell_stepper.h>
 #include <sinew/stepping/detail/dynamic_grouping.h>
+#include <sinew/stepping/detail/increment_strain.h>
 #include <sinew/stepping/detail/list_stepper.h>
 #include <sinew/stepping/equilibrium.h>
 #include <sinew/world/world.h>
@@ -89,6 +90,8 @@ struct Simulation::Impl {
   MakeStepper make;
   std::unique_ptr<Stepper> stepper;
   std::unique_ptr<Relaxation> relaxation;
+  std::unique_ptr<StrainMeter> strain;           ///< of what relaxes
+  std::shared_ptr<const SimulationState> begun;  ///< where the present increment of it began
   std::unique_ptr<DynamicGrouping> dynamic;
   EnergyLedger ledger, world_ledger;
   double held_at_start = 0;  ///< kinetic energy of what pins hold, J
@@ -141,6 +144,8 @@ void Simulation::follow(StepPlan plan) {
 void Simulation::relax(LoadSteps steps) {
   its_->relaxation = std::make_unique<Relaxation>(
       std::move(steps), relaxation_of(*its_->body, *its_->stepper, its_->stepping.step));
+  its_->strain = std::make_unique<StrainMeter>(*its_->body);
+  begin_increment();
 }
 
 double Simulation::time() const {
@@ -166,26 +171,6 @@ void Simulation::set_time_step(double step) {
   its_->plan_from = its_->steps;
   its_->plan = StepPlan(step);
 }
-
-namespace {
-
-/// Throws bad input unless a body of the one may go on as one of the other.
-void check_variant(const Material& now, const Material& next) {
-  for (const double value : {next.pair.k1, next.pair.k2, next.pair.a, next.bond.stiffness,
-                             next.bond.second, next.damping, next.volume_stiffness, next.friction})
-    if (!is_computable(value) || value < 0)
-      throw bad_input("the material has a constant of " + three_digits(value),
-                      "give constants that are finite and not negative");
-  const BondStrength &a = now.bond, &b = next.bond;
-  if (now.model != next.model || now.cohesion != next.cohesion || now.pair.r != next.pair.r ||
-      now.pair.b != next.pair.b || now.mass != next.mass || (a.second > 0) != (b.second > 0) ||
-      (a.breaking_strain > 0) != (b.breaking_strain > 0) ||
-      (a.yield_shear > 0) != (b.yield_shear > 0) || a.branch_count() != b.branch_count())
-    throw bad_input("the material has another model, or other particles, than the body",
-                    "begin a simulation of that body");
-}
-
-}  // namespace
 
 void Simulation::set_material(const Material& material) {
   if (its_->body->grouping || its_->dynamic)
@@ -302,20 +287,48 @@ void Simulation::add(const StepSums& sums) {
   ++its_->steps;
 }
 
+/// A load that would strain the body too much at once is applied in increments.
 void Simulation::relax_once() {
-  its_->relaxation->begin_iteration();
-  switch (its_->relaxation->iterate(*its_->stepper, moment(), its_->offenders)) {
-    case Relaxation::Outcome::moved:
-      ++its_->steps;
-      break;
-    case Relaxation::Outcome::shortened:
-      set_step(its_->relaxation->step());
-      break;
-    case Relaxation::Outcome::failed:
-      fail();
-    case Relaxation::Outcome::at_rest:
-      break;
+  using enum Relaxation::Outcome;
+  Relaxation& relaxation = *its_->relaxation;
+  relaxation.begin_iteration();
+  const auto outcome = relaxation.iterate(*its_->stepper, moment(), its_->offenders);
+  if (outcome == failed) fail();
+  if (outcome == shortened) set_step(relaxation.step());
+  if (outcome == moved) {
+    ++its_->steps;
+    if (relaxation.strain_is_due()) give_up_increment(strain_while_moving);
   }
+  if (outcome != at_rest || give_up_increment(1)) return;
+  relaxation.accept(strain_of_increment());
+  begin_increment();
+}
+
+IncrementStrain Simulation::strain_of_increment() const {
+  forget_read();
+  return its_->strain->since(positions_by_id(particles()));
+}
+
+void Simulation::begin_increment() {
+  forget_read();
+  its_->strain->begin(positions_by_id(particles()));
+  its_->begun.reset();
+  its_->begun = std::make_shared<const SimulationState>(save());
+}
+
+/// Returns to where the present increment of a load began, to try a shorter one, where it strains
+/// the body more than so many times what it may.
+bool Simulation::give_up_increment(double times) {
+  IncrementStrain found = strain_of_increment();
+  found.strain /= times;
+  if (times > 1) found.inverted = 0;  // it may come back
+  if (!its_->relaxation->is_too_large(found, its_->strain->inverted_at_begin())) return false;
+  SimulationState begun = *its_->begun;
+  begun.steps = its_->steps;
+  begun.relaxation = its_->relaxation->shorter(begun.relaxation, found.strain);
+  begun.increment_begun = its_->begun;
+  restore(begun);
+  return true;
 }
 
 /// The present one, as the stepper is told: bones of what relaxes stand still.
@@ -372,7 +385,7 @@ void Simulation::take(NewGroups made) {
 }
 
 /// The particles read last are obsolete, and take half as much memory as the state.
-void Simulation::forget_read() {
+void Simulation::forget_read() const {
   free_motion(its_->particles);
   its_->read = false;
 }
@@ -529,7 +542,10 @@ SimulationState Simulation::save() const {
   state.ledger = its_->ledger.entries();
   state.world_ledger = its_->world_ledger.entries();
   state.held_at_start = its_->held_at_start;
-  if (its_->relaxation) state.relaxation = its_->relaxation->state();
+  if (its_->relaxation) {
+    state.relaxation = its_->relaxation->state();
+    state.increment_begun = its_->begun;
+  }
   if (its_->dynamic)
     state.grouping = its_->body->grouping->group, state.regrouping = its_->dynamic->state();
   return state;
@@ -561,6 +577,21 @@ void Simulation::restore(const SimulationState& state) {
   its_->world_ledger.restore(state.world_ledger, last);
   its_->held_at_start = state.held_at_start;
   its_->evaluated = false;
+  forget_read();
+  if (its_->relaxation) go_on_with_increment(state);
+}
+
+void Simulation::go_on_with_increment(const SimulationState& state) {
+  if (!state.increment_begun) return begin_increment();
+  if (state.increment_begun == its_->begun) return;
+  const auto go_to = [this](const SimulationState& there) {
+    its_->relaxation->restore(there.relaxation);  // what supports hold is where they are then
+    its_->stepper->restore(there);
+  };
+  go_to(*state.increment_begun);
+  begin_increment();
+  its_->begun = state.increment_begun;
+  go_to(state);
   forget_read();
 }
 

@@ -204,10 +204,14 @@ void RunLog::frame(int frame, double time) {
 }
 
 void RunLog::load_step(int frame, const Equilibrium& found) {
-  record_["load_steps"].push_back(
-      {{"frame", frame}, {"iterations", found.iterations}, {"residual", found.residual}});
-  log("at rest after " + std::to_string(found.iterations) + " iterations, with a residual of " +
-      three_digits(found.residual));
+  record_["load_steps"].push_back({{"frame", frame},
+                                   {"iterations", found.iterations},
+                                   {"increments", found.increments},
+                                   {"residual", found.residual},
+                                   {"inverted", found.inverted}});
+  log("at rest after " + std::to_string(found.iterations) + " iterations in " +
+      std::to_string(found.increments) + (found.increments == 1 ? " increment" : " increments") +
+      ", with a residual of " + three_digits(found.residual));
 }
 
 void RunLog::frames(int written) {
