@@ -31,6 +31,7 @@ Bar with_groups_at_ends(const Settings& settings, int width = 17, int height = 6
 Bar bending(Precision precision = Precision::binary64) {
   Settings settings = test::in(precision, test::box_scene(81));
   settings.material.model = MaterialModel::bonded;
+  settings.material.damping_form = DampingForm::paper;
   settings.solver.gravity = {0, 1, -2};
   settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.3, 50)})};
   return with_groups_at_ends(settings, 25, 81);

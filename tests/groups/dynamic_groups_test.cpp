@@ -27,6 +27,7 @@ constexpr double start = 0.3, bent = 0.4;
 Bar swinging(MaterialModel model, Precision precision = Precision::binary64, double back = 10) {
   Settings settings = test::in(precision, test::box_scene(height));
   settings.material.model = model;
+  settings.material.damping_form = DampingForm::paper;
   settings.material.young_modulus = 1e5;
   settings.tracks = {test::track(
       "upper", {test::bend_key(start, 0), test::bend_key(bent, 20), test::bend_key(back, 0)})};

@@ -18,7 +18,7 @@ HIGH, WIDE, YOUNG, GRAVITY, DENSITY = 0.6, 0.2, 1e4, 0.2, 1000
 SCENE = """
 body: {{mesh: cube.obj, radius: {radius}}}
 {bodies}
-material: {{model: {model}, young_modulus: 1e4, damping: 40}}
+material: {{model: {model}, young_modulus: 1e4, damping: 40, damping_form: paper}}
 skeleton:
   bones: [{{name: base, head: [0, 0, 0], tail: [0, 0, 0.05]}}]
 binding: {{explicit: [{{bone: none, low: [-1, -1, 0.05], high: [9, 9, 9]}}]}}

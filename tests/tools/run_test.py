@@ -12,7 +12,10 @@ import struct
 import sys
 import unittest
 
-from small_run import BIN, SERIES, SOURCE, SmallRun, sinew
+import meshio
+import numpy
+
+from small_run import BIN, HAS_GROUPS, SERIES, SOURCE, SmallRun, sinew
 
 
 def on_a_terminal(words, variables):
@@ -69,6 +72,36 @@ class Commands(SmallRun):
         self.assertEqual(float(rows[0]["power"]), 0)
         self.assertGreater(max(float(row["power"]) for row in rows if row["bone"] == "upper"), 0)
         self.assertEqual({float(row["power"]) for row in rows if row["bone"] == "lower"}, {0})  # it rests
+
+    def test_power_in_bones_csv_is_that_of_its_force_and_moment(self):
+        """Of what acts on the body: F v + M omega of the row, with the velocities that frames have."""
+        self.simulate("--set", "output.double_precision=true", "--set", "output.encoding=none")
+        rows = list(csv.DictReader((self.out / "bones.csv").open()))
+        powers = []
+        for number, frame in enumerate(sorted((self.out / "frames").glob("*.vtu"))):
+            arrays = meshio.read(frame).point_data
+            for bone, row in enumerate(rows[2 * number:2 * number + 2]):
+                force, moment = (numpy.array([float(row[f"{what}_{axis}"]) for axis in "xyz"])
+                                 for what in ("force", "moment"))
+                power = force @ arrays["velocity"][bone] + moment @ arrays["angular_velocity"][bone]
+                self.assertAlmostEqual(power, float(row["power"]), delta=1e-9)
+                numpy.testing.assert_allclose(-force, arrays["reaction_force"][bone], atol=1e-12)
+                numpy.testing.assert_allclose(-moment, arrays["reaction_moment"][bone], atol=1e-12)
+                powers.append(power)
+        self.assertGreater(max(powers), 0.01)
+
+    def test_bonded_bodies_turn_undamped_unless_they_have_groups(self):
+        """damping_form auto: central for bonds, eq. 2 for the paper's model and where there are groups."""
+        forms = [(["material.model=bonded"], "central"), (["material.model=paper"], "paper")]
+        if HAS_GROUPS:
+            forms.append((["material.model=bonded", "hierarchy.enabled=true", "hierarchy.min_particles=64"], "paper"))
+        for words, form in forms:
+            hashes = []
+            for more in ([], [f"material.damping_form={form}"]):
+                sets = [part for word in [*words, *more] for part in ("--set", word)]
+                self.simulate("--force", *sets)
+                hashes.append(self.record()["state_hash"])
+            self.assertEqual(*hashes)
 
     def test_skinning_and_export_are_written_on_request(self):
         asked = [f"--set=output.{key}=true" for key in ("skin_lbs", "skin_dqs", "export")]

@@ -104,7 +104,7 @@ struct MaterialOptions {
   double b = 2.6;
   double damping = 0.5;
   std::optional<double> damping_ratio;
-  DampingForm damping_form = DampingForm::paper;
+  std::optional<DampingForm> damping_form;  ///< by default central with bonds, else the paper's
   std::optional<double> breaking_strain;
   std::optional<double> fracture_energy;
   std::optional<double> yield_strain;

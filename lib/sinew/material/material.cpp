@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sinew/core/error.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/text.h>
 #include <sinew/material/laws.h>
 
 namespace sinew {
@@ -132,10 +134,26 @@ Material make_material(const MaterialOptions& settings, const PackedBody& body) 
   material.mass = body.mass;
   material.order = order_of(body.packing);
   if (has_bonds(settings.model)) bond(settings, packing, material);
-  material.damping_form = settings.damping_form;
+  material.damping_form = settings.damping_form.value_or(
+      has_bonds(settings.model) ? DampingForm::central : DampingForm::paper);
   material.friction = settings.friction;
   material.damping = settings.damping * std::sqrt(pair.contact_stiffness() * body.mass);
   return material;
+}
+
+void check_variant(const Material& now, const Material& next) {
+  for (const double value : {next.pair.k1, next.pair.k2, next.pair.a, next.bond.stiffness,
+                             next.bond.second, next.damping, next.volume_stiffness, next.friction})
+    if (!is_computable(value) || value < 0)
+      throw bad_input("the material has a constant of " + three_digits(value),
+                      "give constants that are finite and not negative");
+  const BondStrength &a = now.bond, &b = next.bond;
+  if (now.model != next.model || now.cohesion != next.cohesion || now.pair.r != next.pair.r ||
+      now.pair.b != next.pair.b || now.mass != next.mass || (a.second > 0) != (b.second > 0) ||
+      (a.breaking_strain > 0) != (b.breaking_strain > 0) ||
+      (a.yield_shear > 0) != (b.yield_shear > 0) || a.branch_count() != b.branch_count())
+    throw bad_input("the material has another model, or other particles, than the body",
+                    "begin a simulation of that body");
 }
 
 }  // namespace sinew

@@ -106,7 +106,12 @@ constexpr double max_steps = 2e9;  // files count them in 32 bits
 void set_damping_ratio(const Settings& settings, Body& body) {
   if (!settings.material.damping_ratio || is_static(settings)) return;
   const ElasticModes modes = elastic_modes(body);
-  if (!modes.empty()) body.material.damping = modes.damping_for(*settings.material.damping_ratio);
+  if (modes.empty())
+    throw bad_input(settings.place("material.damping_ratio"),
+                    "the lowest elastic mode of this body cannot be found: it has none, or over "
+                    "200,000 particles in fewer than 18 layers",
+                    "give material.damping instead");
+  body.material.damping = modes.damping_for(*settings.material.damping_ratio);
 }
 
 /// Returns warnings only once for a rig that gives both bones and motion.
@@ -120,9 +125,12 @@ std::vector<std::string> warnings_of(const SceneFiles& files) {
 }  // namespace
 
 Material material_of(const Settings& settings, const Particles& particles) {
-  Material material = make_material(
-      settings.material,
-      {particles.radius, particles.mass, lattice_axes(settings.body), settings.body.packing});
+  MaterialOptions options = settings.material;
+  // Groups that bend rest on eq. 2, which is zero within them.
+  if (settings.hierarchy.enabled && !options.damping_form)
+    options.damping_form = DampingForm::paper;
+  Material material = make_material(options, {particles.radius, particles.mass,
+                                              lattice_axes(settings.body), settings.body.packing});
   for (const LocalMaterialSettings& local : settings.materials) {
     BondStrength& bond = material.bond;
     if (local.breaking_strain && bond.breaking_strain == 0) bond.breaking_strain = never_reached;
