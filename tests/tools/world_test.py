@@ -14,6 +14,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import meshio
+
 import small_run
 
 SOURCE = small_run.SOURCE
@@ -56,6 +58,14 @@ solver:
   duration: 0.2
 """
 
+
+FALL = """
+body: {{mesh: {source}/data/meshes/box.obj, radius: 0.025}}
+material: {{model: bonded, young_modulus: 1e5}}
+world: {{obstacles: [{{name: floor, shape: plane, point: [0, 0, -0.1]}}]}}
+solver: {{duration: 0.3, gravity: [0, 0, -9.81]}}
+output: {{interval: 0.05, double_precision: true}}
+"""
 
 sinew = functools.partial(small_run.sinew, check=0)
 
@@ -132,6 +142,18 @@ class World(unittest.TestCase):
     def test_check_counts_particles_that_begin_within_an_obstacle(self):
         done = sinew("check", self.scene(SCENE.replace("shape: plane", "shape: plane\n      point: [0, 0, 0.1]")))
         self.assertRegex(done.stderr, r"\d+ particles begin .* within obstacle 'floor'")
+
+    def test_a_body_without_bones_falls_on_the_floor(self):
+        scene, run = self.folder / "fall.yaml", self.folder / "fall"
+        scene.write_text(FALL.format(source=SOURCE))
+        sinew("check", scene)
+        sinew("run", scene, "-o", run, "--no-movie")
+        moved = [meshio.read(frame).point_data["displacement"] for frame in sorted((run / "particles").glob("*.vtu"))]
+        self.assertAlmostEqual(moved[2][:, 2].mean(), -9.81 * 0.1 ** 2 / 2, delta=0.01 * 0.049)
+        rest = meshio.read(run / "body.vtu").points
+        lowest = min((rest + one)[:, 2].min() for one in moved)
+        self.assertGreater(lowest, -0.1)  # centers stay above the floor
+        self.assertLess(lowest, -0.05)
 
     def test_mistakes_name_their_line(self):
         for old, new, said in [

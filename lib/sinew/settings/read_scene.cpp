@@ -151,10 +151,12 @@ void read_bodies(const YamlNode& scene, Settings& settings) {
                 settings.bodies.emplace_back(), settings.places);
 }
 
-/// Without bones a body hangs in its testing machine.
-bool needs_bones(const YamlNode& skeleton, const Settings& settings) {
-  return (settings.supports.empty() && settings.loads.empty()) ||
-         skeleton.find("bones") != nullptr || !settings.skeleton.file.empty();
+/// Without bones a body hangs in its testing machine, or falls on obstacles.
+bool needs_bones(const YamlNode& scene, const YamlNode& skeleton, const Settings& settings) {
+  const YamlNode* world = scene.find("world");
+  const bool is_alone = settings.supports.empty() && settings.loads.empty() &&
+                        (world == nullptr || world->items.empty());
+  return is_alone || skeleton.find("bones") != nullptr || !settings.skeleton.file.empty();
 }
 
 Settings read_settings(const YamlNode& scene, const std::string& file,
@@ -175,7 +177,7 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
     const auto rows = rows_of(name);
     read_fields<Settings>(section, std::string(name), rows, lists_of(name), settings,
                           settings.places);
-    if (name == "skeleton" && needs_bones(section, settings)) read_bones(section, settings);
+    if (name == "skeleton" && needs_bones(scene, section, settings)) read_bones(section, settings);
     if (name == "motion") read_tracks(section, settings);
     if (name == "world") read_world(section, settings);
     if (name == "binding") read_bound(section, settings);
