@@ -71,7 +71,9 @@ Motion clip_motion(const Rig& rig, const Skeleton& skeleton, const Settings& set
 }  // namespace
 
 Skeleton skeleton_of(const Settings& settings) {
-  if (settings.bones.empty() && !(settings.supports.empty() && settings.loads.empty())) return {};
+  const bool is_alone =
+      settings.supports.empty() && settings.loads.empty() && settings.world.empty();
+  if (settings.bones.empty() && !is_alone) return {};
   Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(settings.bones); });
   return placed(std::move(skeleton), placement_of(settings.skeleton));
 }
