@@ -88,7 +88,7 @@ void add_sizes(const Prepared& prepared, Results& results) {
 /// How the body rings by itself.
 void add_modes(const Body& body, Results& results) {
   results.add("damping_constant", body.material.damping, "kg/s");
-  // Free bodies alone turn without their bones, but what turns with them is braked in the same way.
+  // Bodies on bones are braked alike where these turn.
   if (const double time = spin_time(body); std::isfinite(time)) results.add("spin_time", time, "s");
   const ElasticModes modes = elastic_modes(body);
   if (modes.empty()) return;

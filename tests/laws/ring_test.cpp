@@ -220,6 +220,9 @@ TEST(LayersAcross, AreThoseOfTheThinnestPart) {
   EXPECT_EQ(layers(test::fcc_box(7, 41, 41, r)), 7);
   EXPECT_EQ(layers(test::fcc_box(9, 9, 61, r)), 9);
   EXPECT_EQ(layers(test::fcc_box(15, 15, 15, r)), 15);
+  Points loose = test::fcc_box(7, 41, 41, r);
+  for (std::size_t i = 0; i < loose.size(); ++i) loose[i] *= 1 + 1e-3 * static_cast<double>(i % 7);
+  EXPECT_TRUE(std::isinf(layers(loose)));
   Points dumbbell = test::fcc_box(5, 5, 61, r);  // between thick ends
   for (const Vec3& place : test::fcc_box(17, 17, 13, r)) {
     const Vec3 shifted = place - Vec3(6, 7, 13) * std::sqrt(2.0) * r;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include <sinew/analysis/detail/free_body.h>
@@ -233,9 +234,23 @@ ElasticModes coarse_modes(const Body& body, int times) {
 
 }  // namespace
 
+namespace {
+
+/// Whether all neighbors touch, as in packings that are no lattice they do not.
+bool is_closest(const Body& body, const NeighborLists& near) {
+  const double touching = 2 * body.material.pair.r;
+  for (std::uint32_t i = 0; i < near.size(); ++i)
+    for (const std::uint32_t j : near.of(i))
+      if (std::abs((body.rest[j] - body.rest[i]).norm() - touching) > 1e-3 * touching) return false;
+  return true;
+}
+
+}  // namespace
+
 double layers_across(const Body& body) {
   const SharedNeighbors shared = neighbors_of(body);
   const NeighborLists& near = shared->nearest;
+  if (!is_closest(body, near)) return std::numeric_limits<double>::infinity();
   const std::size_t n = body.rest.size();
   std::vector<std::uint32_t> order;  // from the surface inward
   std::vector<int> depth(n, -1);
@@ -304,7 +319,8 @@ ElasticModes elastic_modes(const Body& body) {
   const auto count = static_cast<double>(body.rest.size());
   int times = 1;
   while (count / std::pow(times, 3) > max_particles) ++times;
-  if (times > 1) times = std::clamp(static_cast<int>(layers_across(body) / min_layers), 1, times);
+  if (times > 1)
+    times = static_cast<int>(std::clamp(layers_across(body) / min_layers, 1.0, 1.0 * times));
   if (count / std::pow(times, 3) > max_iterated) return {};
   return times == 1 ? modes_of(body, false) : coarse_modes(body, times);
 }

@@ -31,8 +31,9 @@ struct ElasticModes {
 /// particles that is too thin to be coarsened to so many.
 ElasticModes elastic_modes(const Body& body);
 
-/// Number of layers of particles across the thinnest tenth of a packed body: from its surface to
-/// the deepest particle below, and out again.
+/// Number of layers of particles across the thinnest tenth of a body in closest packing: from its
+/// surface to the deepest particle below, and out again; infinite for other packings, which have
+/// none.
 double layers_across(const Body& body);
 
 /// The same body of fewer particles, `times` as large, in FCC packing along its axes, without

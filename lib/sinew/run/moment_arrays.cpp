@@ -46,20 +46,24 @@ Column bone_points(const BodyMoment& moment, std::string_view name) {
   });
 }
 
-Column pulls(const BodyMoment& moment, std::string_view name, Vec3 BonePull::*part) {
+/// Adds up the pulls of all bones on each particle, by id.
+std::vector<BonePull> pulls_of(const BodyMoment& moment) {
   const Body& body = moment.body;
-  return vectors(name, body.rest.size(), [&](std::size_t id) -> Vec3 {
-    const ParticleState particle{body.rest[id], moment.positions[id], Vec3::Zero(),
-                                 moment.now.radius};
-    Vec3 sum = Vec3::Zero();
-    for (const Influence& influence : body.binding.of(id)) {
-      const auto b = static_cast<std::size_t>(influence.bone);
-      sum +=
-          bone_pull(body.springs[b], influence, body.skeleton.bones[b], moment.pose[b], particle).*
-          part;
+  std::vector<BonePull> sums(body.rest.size());
+  parallel_for(sums.size(), particles_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t id = begin; id < end; ++id) {
+      const ParticleState particle{body.rest[id], moment.positions[id], Vec3::Zero(),
+                                   moment.now.radius};
+      for (const Influence& influence : body.binding.of(id)) {
+        const auto b = static_cast<std::size_t>(influence.bone);
+        const BonePull pull =
+            bone_pull(body.springs[b], influence, body.skeleton.bones[b], moment.pose[b], particle);
+        for (const auto part : {&BonePull::radial, &BonePull::twist, &BonePull::axial})
+          sums[id].*part += pull.*part;
+      }
     }
-    return sum;
   });
+  return sums;
 }
 
 }  // namespace
@@ -67,12 +71,18 @@ Column pulls(const BodyMoment& moment, std::string_view name, Vec3 BonePull::*pa
 std::vector<Column> moment_arrays(const BodyMoment& moment,
                                   std::span<const std::string_view> names) {
   std::vector<Column> columns;
+  std::vector<BonePull> pulls;  // once they are asked for
+  const auto add_part = [&](std::string_view name, Vec3 BonePull::*part) {
+    if (pulls.empty()) pulls = pulls_of(moment);
+    columns.push_back(
+        vectors(name, pulls.size(), [&](std::size_t id) -> Vec3 { return pulls[id].*part; }));
+  };
   for (const std::string_view name : names) {
     if (name == "acceleration") columns.push_back(accelerations(moment, name));
     if (name == "bone_point") columns.push_back(bone_points(moment, name));
-    if (name == "force_radial") columns.push_back(pulls(moment, name, &BonePull::radial));
-    if (name == "force_twist") columns.push_back(pulls(moment, name, &BonePull::twist));
-    if (name == "force_axial") columns.push_back(pulls(moment, name, &BonePull::axial));
+    if (name == "force_radial") add_part(name, &BonePull::radial);
+    if (name == "force_twist") add_part(name, &BonePull::twist);
+    if (name == "force_axial") add_part(name, &BonePull::axial);
   }
   return columns;
 }

@@ -109,7 +109,7 @@ void set_damping_ratio(const Settings& settings, Body& body) {
   if (modes.empty())
     throw bad_input(settings.place("material.damping_ratio"),
                     "the lowest elastic mode of this body cannot be found: it has none, or over "
-                    "200,000 particles in fewer than 18 layers",
+                    "200,000 particles in too few layers",
                     "give material.damping instead");
   body.material.damping = modes.damping_for(*settings.material.damping_ratio);
 }
