@@ -13,6 +13,7 @@
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/groups.h>
+#include <sinew/scene/model_limits.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/rest_trial.h>
 #include <sinew/scene/rig.h>
@@ -171,7 +172,8 @@ void add_steps(const Prepared& prepared, double speed, Results& results) {
   results.add("bone_speed", speed, "radii per step");
 }
 
-/// Adds results of equilibria: nobody knows before how many iterations one takes.
+/// Adds results of equilibria. The number of iterations is that of a body held at one end, which
+/// is at rest only after its slowest motion.
 void add_load_steps(const Prepared& prepared, double rate, Results& results) {
   const LoadSteps& steps = *prepared.load_steps;
   const auto particles = static_cast<double>(prepared.filled.particles.size());
@@ -179,7 +181,12 @@ void add_load_steps(const Prepared& prepared, double rate, Results& results) {
   results.add("frames", steps.count);
   results.add("duration", prepared.settings.solver.duration, "s");
   results.add("residual", steps.residual);
+  const bool newton = steps.solver == StaticSolver::newton;
+  results.add("static_solver", newton ? "newton" : "relaxation");
+  if (newton) results.add("factor_nonzeros", steps.cost.nonzeros);
   results.add("max_iterations_per_frame", steps.max_iterations);
+  if (newton) return;
+  results.add("foreseen_iterations_per_frame", steps.cost.iterations);
   results.add("time_of_1000_iterations", 1000 * particles / rate, "s");
 }
 
@@ -258,6 +265,8 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   add_rest(try_rest(prepared), results);
   add_modes(prepared.body, results);
   add_planes(prepared.body, results);
+  for (const ModelLimit& limit : model_limits(prepared))
+    results.add(limit.key, limit.value, limit.text);
   if (prepared.load_steps)
     add_load_steps(prepared, rate, results);
   else

@@ -13,6 +13,7 @@ import unittest
 from pathlib import Path
 
 import small_run
+from bars import write_box
 
 SOURCE = small_run.SOURCE
 E, LENGTH, WIDTH, R = 1e5, 0.692965, 0.155563, 0.01
@@ -98,6 +99,52 @@ class Materials(unittest.TestCase):
         self.assertTrue(all(mesh.points[material == 1][:, 2] > 0.34))
         self.assertTrue(all(mesh.points[material == 2][:, 2] > 0.67))
         sinew("measure", self.out)
+
+    def test_check_names_how_much_too_stiff_grips_make_a_bar(self):
+        """49 layers, of which the grips hold the first and the last: nothing but those do not stretch."""
+        path = self.folder / "bar.yaml"
+        path.write_text(BAR.format(source=SOURCE, materials=""))
+        said = json.loads(sinew("check", path, "--json").stdout)
+        self.assertAlmostEqual(said["grip_factor"], 49 / 48, 4)
+        self.pull("")
+        planes = self.force() / (E * WIDTH ** 2 * 0.007 / LENGTH)
+        self.assertAlmostEqual(planes, said["grip_factor"], delta=0.02)
+
+    def test_check_names_how_far_a_skin_that_keeps_its_volume_less_gives_way(self):
+        """A cube of seven layers under a pressure all around: the factor is a fit of measured ones."""
+        layer, nu, pressure = R * 2 ** 0.5, 0.45, 100
+        side, middle = 7 * layer, 3.5 * layer
+        write_box(self.folder / "cube.obj", side, side)
+        path = self.folder / "cube.yaml"
+        path.write_text(f"""
+body: {{mesh: cube.obj, radius: {R}}}
+material: {{model: bonded_volume, young_modulus: {E}, poisson_ratio: {nu}}}
+supports:
+  - {{name: a, center: [0, 0, {middle}], radius: 0.004}}
+  - {{name: b, hold: yz, center: [{2 * layer}, 0, {middle}], radius: 0.015}}
+  - {{name: c, hold: z, center: [0, {2 * layer}, {middle}], radius: 0.015}}
+loads: [{{name: all, pressure: {pressure}, keys: [{{time: 0, factor: 0}}, {{time: 1, factor: 1}}]}}]
+solver: {{method: static, duration: 1}}
+output: {{interval: 1}}
+""")
+        sinew("simulate", path, "-o", self.out)
+        sinew("measure", self.out)
+        with open(self.out / "metrics.csv", newline="") as file:
+            volume = [float(row["particle_volume"]) for row in csv.DictReader(file)]
+        bulk = E / (3 * (1 - 2 * nu))
+        factor = json.loads(sinew("check", path, "--json").stdout)["bulk_compression_factor"]
+        self.assertAlmostEqual((1 - volume[1] / volume[0]) / (pressure / bulk) / factor, 1, delta=0.1)
+
+    def test_check_names_what_a_crack_takes_and_where_friction_ends(self):
+        path = self.folder / "bar.yaml"
+        path.write_text(BAR.format(source=SOURCE, materials=""))
+        plain = json.loads(sinew("check", path, "--json").stdout)
+        self.assertNotIn("friction_floor", plain)
+        self.assertNotIn("crack_energy_factor", plain)
+        said = json.loads(sinew("check", path, "--json", "--set", "material.fracture_energy=1",
+                                "--set", "solver.method=dynamic", "--set", "material.friction=0.2").stdout)
+        self.assertAlmostEqual(said["friction_floor"], 0.364, 3)
+        self.assertAlmostEqual(said["crack_energy_factor"], 3.4, 6)
 
     def test_what_cannot_differ_is_refused(self):
         path = self.folder / "bar.yaml"

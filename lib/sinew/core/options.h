@@ -249,6 +249,8 @@ struct BindingOptions {
 
 enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };
 enum class Method { dynamic, static_equilibrium };
+/// How equilibria are found; automatic: by Newton's method where that pays.
+enum class StaticSolver { automatic, newton, relaxation };
 enum class Precision { binary64, binary32 };
 enum class NeighborSearch { lists, cells };
 enum class GroupForm { affine, cubic };

@@ -87,6 +87,11 @@ struct RelaxationState {
   double largest = 0;           ///< force applied where the body was at rest, N
   double applied = 0;           ///< in the last iteration, N
   double unbalanced = 0;        ///< forces in the last iteration that nothing answered, N
+  double best = 0;              ///< the smallest of these that counted as progress, N
+  std::int64_t best_at = 0;     ///< the iteration in which it was reached
+  std::int64_t newton = 0;      ///< of these iterations, Newton's; -1: it led nowhere
+  std::int64_t negative = 0;    ///< pivots of the last factor
+  std::int64_t unstable = 0;    ///< equilibria found on that way from which the body would buckle
 };
 
 /// State of groups of particles that change as the body moves.

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
-constexpr std::uint32_t format_version = 7;
+constexpr std::uint32_t format_version = 8;
 constexpr std::size_t name_size = 8;
 // Twice, where a load is applied in increments. Bonds: 18 neighbors at rest, from both sides;
 // branches of them; positions, velocities, order.
@@ -68,6 +68,11 @@ void serialize_state(Archive& archive, State& state) {
   archive("largest", state.relaxation.largest);
   archive("applied", state.relaxation.applied);
   archive("unbal", state.relaxation.unbalanced);
+  archive("best", state.relaxation.best);
+  archive("bestat", state.relaxation.best_at);
+  archive("newton", state.relaxation.newton);
+  archive("negative", state.relaxation.negative);
+  archive("unstable", state.relaxation.unstable);
   archive("slidpair", state.sliding_pairs);
   archive("sliding", state.sliding);
   archive("groups", state.groups);

@@ -262,6 +262,7 @@ class Run {
       log_.load_step(frame, relaxation->last());
       if (relaxation->last().inverted > inverted_.particles)
         inverted_ = {relaxation->last().inverted, time};
+      if (relaxation->last().unstable > 0 && !buckles_at_) buckles_at_ = time;
     }
   }
 
@@ -271,6 +272,14 @@ class Run {
          " of " + std::to_string(simulation_->body().rest.size()) +
          " particles are inverted: this equilibrium is not to be trusted; make the load smaller, "
          "or body.radius");
+  }
+
+  void warn_of_buckling() const {
+    if (buckles_at_)
+      warn("before " + three_digits(*buckles_at_) +
+           " s the body comes to an equilibrium that is unstable, by negative pivots of its "
+           "tangent: it buckles, to a side that a small imperfection decides; put a small load to "
+           "the side that is meant");
   }
 
   void report(int frame) const {
@@ -307,6 +316,7 @@ class Run {
         warn("probe " + shown(name) + " has no strain in some frames: its particles have too few " +
              "neighbors; place it where the body is thicker");
     warn_of_inverted();
+    warn_of_buckling();
     if (writer_->written() > 0) write_state();
     log_.spend("writing", watch.lap());
   }
@@ -330,8 +340,9 @@ class Run {
   Schedule schedule_;
   struct {
     std::size_t particles = 0;
-    double time = 0;  ///< s
-  } inverted_;        ///< in the worst equilibrium
+    double time = 0;                  ///< s
+  } inverted_;                        ///< in the worst equilibrium
+  std::optional<double> buckles_at_;  ///< s
   std::optional<Simulation> simulation_;
   std::optional<EngineSteps> elsewhere_;
   std::optional<FrameWriter> writer_;
@@ -366,7 +377,8 @@ void say_what_is_doubtful(const Prepared& prepared, const SimulateOptions& optio
   if (const auto& relaxed = prepared.load_steps)
     say(options, "equilibria at " + std::to_string(relaxed->count) +
                      " moments, each to a residual of " + three_digits(relaxed->residual) +
-                     " within " + std::to_string(relaxed->max_iterations) + " iterations");
+                     " within " + std::to_string(relaxed->max_iterations) + " iterations of " +
+                     (relaxed->solver == StaticSolver::newton ? "Newton's method" : "relaxation"));
   else
     say(options, "step " + three_digits(prepared.steps.step) + " s, " +
                      three_digits(prepared.steps.factor()) + " of the stability limit " +

@@ -251,6 +251,33 @@ bool changes(const Body& body, double from, double to) {
 
 }  // namespace
 
+namespace {
+
+/// Chooses how equilibria are found. Newton's method is refused where it is asked for and does not
+/// apply.
+void choose_static_solver(const Settings& settings, const Prepared& prepared, LoadSteps& steps) {
+  using enum StaticSolver;
+  constexpr double clearly = 2;  // faster: both are estimates
+  constexpr double quick = 1;    // a relaxation, s: the factor is not worth a look
+  const StaticSolver asked = settings.solver.static_solver;
+  std::string why =
+      why_not_newton(prepared.body, stepping_of(settings.solver, prepared.steps.step));
+  steps.cost = relaxation_cost(prepared.body, steps.residual);
+  if (why.empty() && asked != relaxation && (asked == newton || steps.cost.relaxation > quick))
+    steps.cost = with_factor(steps.cost, prepared.body);
+  if (why.empty() && steps.cost.nonzeros > max_factor)
+    why = "the factor of the tangent has over " + three_digits(max_factor) + " nonzeros";
+  if (asked == newton && !why.empty())
+    throw bad_input(settings.place("solver.static_solver"),
+                    "Newton's method does not apply: " + why,
+                    "set solver.static_solver to auto or relaxation");
+  const bool pays = clearly * steps.cost.newton < steps.cost.relaxation;
+  steps.solver =
+      why.empty() && (asked == newton || (asked == automatic && pays)) ? newton : relaxation;
+}
+
+}  // namespace
+
 LoadSteps load_steps_of(const Settings& settings, const Prepared& prepared) {
   // Slow beside waves, which would strain the body more than its load does.
   constexpr double carried_in_radii = 0.02, crossings = 4;
@@ -264,6 +291,7 @@ LoadSteps load_steps_of(const Settings& settings, const Prepared& prepared) {
   const bool single = settings.solver.precision == Precision::binary32;
   steps.residual = settings.solver.residual.value_or(single ? 1e-2 : 1e-6);
   steps.acceptable = settings.solver.residual ? 0 : 1e-4;
+  choose_static_solver(settings, prepared, steps);
   const double crossing = crossings * crossing_time(prepared.body) / prepared.steps.step;
   steps.min_ramp = static_cast<int>(std::clamp(std::ceil(crossing), 1.0, 1e8));
   for (const double speed : prepared.bone_speeds) {

@@ -44,6 +44,7 @@ constexpr double deepest_start = 0.1;  // radii inside an obstacle: more is visi
 constexpr double min_shift = 0.1;      // radii: a smaller jump of a bone is invisible
 // In square roots of a bone's cross-section: 0.6 is the rim of a round limb.
 constexpr double far_from_bone = 3;
+constexpr double largest_turn = 180;  // degrees of a bone about itself against its parent
 constexpr double steepest_joint = 5;  // degrees between two planes: more breaks bonds
 
 void warn_of_material(const PairForce& pair, Warnings& warnings) {
@@ -102,6 +103,7 @@ double planes_of_zone(const Prepared& prepared, double joint_zone, int bone) {
   return std::max(1.0, length / half_plane_spacing(prepared.body.material.pair.r));
 }
 
+/// Bones that turn about themselves by more than flesh can follow, or in too short a zone.
 void warn_of_cut(const Prepared& prepared, const Track& track, Warnings& warnings) {
   const Bone& bone = prepared.body.skeleton.bones[track.bone];
   if (bone.parent == no_bone || prepared.weights_given) return;
@@ -113,6 +115,12 @@ void warn_of_cut(const Prepared& prepared, const Track& track, Warnings& warning
                        three_digits(step) +
                        " from one plane of particles to the next: that cuts the body; set "
                        "binding.joint_zone to 3 or more and binding.twist_stiffness to 6.4");
+  if (degrees(turn) > largest_turn)
+    warnings.push_back("bone " + bone_of(prepared, track) + " turns " +
+                       three_digits(degrees(turn)) +
+                       " degrees about itself against its parent: beyond 180 flesh between them "
+                       "is pulled the shorter way round, and snaps; divide the turn among several "
+                       "bones, each by 90 or less");
 }
 
 /// Where the rig lies, if that is not where the body is, and what helps.

@@ -221,6 +221,9 @@ void check_static(const Settings& settings) {
     if (is_given(settings, "solver.residual"))
       refuse("solver.residual", "the dynamic method brings nothing to a residual",
              "set solver.method to static, or remove it");
+    if (solver.static_solver != StaticSolver::automatic)
+      refuse("solver.static_solver", "the dynamic method finds no equilibria",
+             "set solver.method to static, or remove it");
     return;
   }
   if (solver.integrator != Integrator::symplectic_euler)

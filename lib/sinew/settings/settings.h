@@ -178,6 +178,7 @@ struct SolverSettings {
   std::optional<double> wall_time;
   std::optional<double> residual;  ///< of the static method
   int iterations = 200'000;        ///< of the static method, for each frame
+  StaticSolver static_solver = StaticSolver::automatic;
 };
 
 struct HierarchySettings {

@@ -313,6 +313,11 @@ std::vector<Field<Settings>> make_solver() {
                "static: the most iterations for a frame, after which the run fails and can be "
                "resumed with more",
                Range{1, 1e9}),
+      choice<S>("solver", "static_solver", SINEW_AT(S, solver.static_solver),
+                {"auto", "newton", "relaxation"},
+                "static: how equilibria are found; newton: by Newton's method, of bonded bodies "
+                "that do not flow, break or rub, and whose tangent has a factor of fewer than 5e7 "
+                "nonzeros; auto: so where that is faster, as of slender bodies"),
   };
 }
 

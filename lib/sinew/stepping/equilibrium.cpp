@@ -31,6 +31,10 @@ constexpr double free_of_force = 1e3;
 // times the iterations of their ramp.
 constexpr double residual_between = 1e-2;
 constexpr int patience_between = 8;
+// Iterations without progress after which a residual stalls: slender bodies need a tenth of them
+// for any progress.
+constexpr double progress = 0.9;
+constexpr std::int64_t stalled_after = 20'000;
 
 /// Factor on an increment that strained a body so, for the next one; up to `longest`.
 double allowed(double strain, double longest) {
@@ -97,13 +101,29 @@ double Relaxation::moment(std::int64_t index) const {
   return index < last || last < 1 ? whole : whole - 1 + steps_.last;
 }
 
-double Relaxation::time() const {
+double Relaxation::end() const { return is_last_increment() ? 1 : now_.reached + now_.increment; }
+
+double Relaxation::time_at(double reached) const {
   if (now_.at_rest == 0) return 0;
-  const double passed = static_cast<double>(now_.iterations) / ramp();
   const double from = moment(now_.at_rest - 1), length = moment(now_.at_rest) - from;
-  const double end = is_last_increment() ? 1 : now_.reached + now_.increment;
-  const double path = now_.reached + (end - now_.reached) * std::min(passed, 1.0);
-  return steps_.interval * (from + length * path);
+  return steps_.interval * (from + length * reached);
+}
+
+double Relaxation::begin_time() const { return time_at(now_.reached); }
+
+double Relaxation::time() const {
+  if (is_direct()) return time_at(end());
+  const double passed = static_cast<double>(now_.iterations) / ramp();
+  return time_at(now_.reached + (end() - now_.reached) * std::min(passed, 1.0));
+}
+
+void Relaxation::count_solution(std::int64_t negative) {
+  ++now_.newton;
+  now_.negative = negative;
+}
+
+bool Relaxation::is_stalled() const {
+  return may_shorten() && now_.iterations > now_.best_at + stalled_after;
 }
 
 double Relaxation::keep() const {
@@ -160,9 +180,14 @@ bool Relaxation::take(const StepSums& sums) {
 bool Relaxation::judge(const StepSums& sums) {
   now_.unbalanced = sums.imbalance.unbalanced;
   now_.applied = sums.imbalance.applied;
-  if (now_.iterations >= ramp() && is_at_rest(sums.imbalance)) return true;
-  if (!is_last_increment() && now_.iterations >= patience_between * ramp()) return true;
+  if ((is_direct() || now_.iterations >= ramp()) && is_at_rest(sums.imbalance)) return true;
+  if (!is_direct() && !is_last_increment() && now_.iterations >= patience_between * ramp())
+    return true;
   if (now_.spent + now_.iterations >= steps_.max_iterations) give_up();
+  if (now_.best_at == 0 || now_.iterations <= ramp() || now_.unbalanced < progress * now_.best) {
+    now_.best = now_.unbalanced;
+    now_.best_at = now_.iterations;
+  }
   find_damping(sums.imbalance);
   return false;
 }
@@ -173,28 +198,41 @@ void Relaxation::accept(const IncrementStrain& found) {
   now_.spent += now_.iterations;
   ++now_.increments;
   if (is_there) {
-    last_ = {now_.spent, now_.increments, residual(), found.inverted};
+    last_ = {now_.spent, now_.increments, residual(), found.inverted, now_.unstable};
     ++now_.at_rest;
   }
   now_.reached = is_there ? 0 : now_.reached + now_.increment;
-  if (is_there) now_.spent = now_.increments = 0;
+  if (is_there) now_.spent = now_.increments = now_.unstable = 0;
   const double longest = now_.increment * allowed(found.strain, longer_by);
   const double left = 1 - now_.reached;
   now_.increment = left / std::ceil(left / std::min(longest, left));
-  now_.iterations = 0;
-  now_.damping = now_.pushed = 0;
+  now_.iterations = now_.best_at = now_.newton = now_.negative = 0;
+  now_.damping = now_.pushed = now_.best = 0;
+}
+
+bool Relaxation::may_shorten() const {
+  return now_.at_rest > 0 && end() - now_.reached >= 1.5 * shortest_increment;
 }
 
 bool Relaxation::is_too_large(const IncrementStrain& found, std::size_t before) const {
-  const double whole = is_last_increment() ? 1 - now_.reached : now_.increment;
-  if (now_.at_rest == 0 || whole < 1.5 * shortest_increment) return false;
-  return found.strain > max_strain_of_increment || found.inverted > before;
+  return may_shorten() && (found.strain > max_strain_of_increment || found.inverted > before);
 }
 
 RelaxationState Relaxation::shorter(RelaxationState begun, double strain) const {
   begun.spent = now_.spent + now_.iterations;
   begun.increment =
       std::max(shortest_increment, now_.increment * std::min(0.5, allowed(strain, longer_by)));
+  return begun;
+}
+
+RelaxationState Relaxation::otherwise(RelaxationState begun) const {
+  begun.spent = now_.spent + now_.iterations;
+  if (may_shorten()) {
+    begun.increment = std::max(shortest_increment, now_.increment / 2);
+  } else {
+    begun.newton = -1;
+    begun.unstable = now_.unstable + (now_.negative > 0 ? 1 : 0);
+  }
   return begun;
 }
 
@@ -240,7 +278,8 @@ void Relaxation::restore(const RelaxationState& state) {
                      is_computable(state.largest) && is_computable(state.applied) &&
                      is_computable(state.unbalanced) && state.spent >= 0 && state.increments >= 0 &&
                      state.reached >= 0 && state.reached < 1 && state.increment > 0 &&
-                     state.increment <= 1;
+                     state.increment <= 1 && is_computable(state.best) && state.best_at >= 0 &&
+                     state.newton >= -1 && state.negative >= 0 && state.unstable >= 0;
   if (!counted || !known || !(state.shortened > 0 && state.shortened <= 1))
     throw not_a_state("its way to rest is none");
   now_ = state;

@@ -13,14 +13,33 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <sinew/body/body.h>
+#include <sinew/core/options.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/stepping/stepper.h>
 
 namespace sinew {
+
+/// Nonzeros of a factor up to which it fits into memory with ease.
+inline constexpr double max_factor = 5e7;
+
+/// What an equilibrium of a body costs, foreseen by its shape and bonds alone.
+struct StaticCost {
+  /// Nonzeros of the factor of its tangent, by symbolic analysis; of a body that is too large for
+  /// that, an upper bound beyond max_factor.
+  double nonzeros = 0;
+  double newton = std::numeric_limits<double>::infinity();  ///< its time by Newton's method, s
+  double relaxation = 0;  ///< by relaxation, s: both of one core of some 2.5 GHz
+  double iterations = 0;  ///< of a relaxation, for a body that is held at one end
+};
+/// Foresees it for a body that is brought to this `residual`, without the factor.
+StaticCost relaxation_cost(const Body& body, double residual);
+/// Adds the factor, by an analysis that takes a while.
+StaticCost with_factor(StaticCost cost, const Body& body);
 
 /// When a body is to be at rest: at 0 and then every `interval`; the last may come sooner.
 struct LoadSteps {
@@ -35,6 +54,8 @@ struct LoadSteps {
   /// A residual that rounding may leave where it hides the one above; 0: none.
   double acceptable = 0;
   double last = 1;  ///< the length of the last interval, in whole ones
+  StaticSolver solver = StaticSolver::relaxation;  ///< automatic, newton: where that applies
+  StaticCost cost = {};                            ///< foreseen, for who chose it
 };
 
 /// The largest step of a relaxation over the step limit: bent bodies rattle beyond.
@@ -44,12 +65,19 @@ inline constexpr double relaxing_step_factor = 0.8;
 /// branches, which have relaxed; and in a world in which everything stands still at each moment.
 Body undamped(Body body);
 
+struct Stepping;
+
+/// Why Newton's method does not find the equilibria of a body that is free of damping; "": it does,
+/// whatever its factor.
+std::string why_not_newton(const Body& body, const Stepping& stepping);
 /// How a body came to rest at a moment.
 struct Equilibrium {
   std::int64_t iterations = 0;  ///< since the moment before
   std::int64_t increments = 1;  ///< of the way from there
   double residual = 0;
   std::size_t inverted = 0;  ///< particles
+  /// Unstable equilibria on the way, by negative pivots: the body may buckle this way or another.
+  std::int64_t unstable = 0;
 };
 
 /// How an increment has strained a body.
@@ -78,6 +106,14 @@ class Relaxation {
 
   bool done() const { return now_.at_rest >= steps_.count; }
   void begin_iteration() { ++now_.iterations; }
+  /// Whether Newton's method is tried in this increment.
+  bool is_direct() const { return steps_.solver != StaticSolver::relaxation && now_.newton >= 0; }
+  /// Takes a solution of Newton's, whose factor had so many negative pivots.
+  void count_solution(std::int64_t negative);
+  /// Whether the residual has not become smaller for long, and a shorter increment may help.
+  bool is_stalled() const;
+  /// The beginning of the present increment, s.
+  double begin_time() const;
   /// Returns the time of the bones and the surroundings in this iteration; of the moment where the
   /// body is at rest, s.
   double time() const;
@@ -108,6 +144,9 @@ class Relaxation {
   bool is_too_large(const IncrementStrain& found, std::size_t before) const;
   /// Where the increment began, to be tried by a shorter one, given what the longer one `found`.
   RelaxationState shorter(RelaxationState begun, double strain) const;
+  /// The same after an increment that led to no stable equilibrium: half of it, or the whole by
+  /// relaxation where it is as short as may be.
+  RelaxationState otherwise(RelaxationState begun) const;
 
   /// Takes what the step found. Whether the body is at rest where it began: the step must not be
   /// accepted then. Throws Error (unstable) that says why the residual cannot be reached, or has
@@ -122,6 +161,9 @@ class Relaxation {
  private:
   int ramp() const;
   bool is_last_increment() const;
+  bool may_shorten() const;
+  double end() const;
+  double time_at(double reached) const;
   double moment(std::int64_t index) const;
   bool judge(const StepSums& sums);
   void find_damping(const Imbalance& sums);

@@ -16,8 +16,8 @@
 #include <sinew/groups/make_grouping.h>
 #include <sinew/stepping/detail/cell_stepper.h>
 #include <sinew/stepping/detail/dynamic_grouping.h>
-#include <sinew/stepping/detail/increment_strain.h>
 #include <sinew/stepping/detail/list_stepper.h>
+#include <sinew/stepping/detail/load_increments.h>
 #include <sinew/stepping/equilibrium.h>
 #include <sinew/world/world.h>
 
@@ -89,9 +89,7 @@ struct Simulation::Impl {
   std::int64_t steps = 0;
   MakeStepper make;
   std::unique_ptr<Stepper> stepper;
-  std::unique_ptr<Relaxation> relaxation;
-  std::unique_ptr<StrainMeter> strain;           ///< of what relaxes
-  std::shared_ptr<const SimulationState> begun;  ///< where the present increment of it began
+  std::unique_ptr<LoadIncrements> increments;  ///< of what is brought to rest
   std::unique_ptr<DynamicGrouping> dynamic;
   EnergyLedger ledger, world_ledger;
   double held_at_start = 0;  ///< kinetic energy of what pins hold, J
@@ -122,7 +120,9 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-const Relaxation* Simulation::relaxation() const { return its_->relaxation.get(); }
+const Relaxation* Simulation::relaxation() const {
+  return its_->increments ? &its_->increments->relaxation() : nullptr;
+}
 const std::vector<Offender>& Simulation::offenders() const { return its_->offenders; }
 std::int64_t Simulation::steps() const { return its_->steps; }
 const Body& Simulation::body() const { return *its_->body; }
@@ -142,14 +142,18 @@ void Simulation::follow(StepPlan plan) {
 }
 
 void Simulation::relax(LoadSteps steps) {
-  its_->relaxation = std::make_unique<Relaxation>(
-      std::move(steps), relaxation_of(*its_->body, *its_->stepper, its_->stepping.step));
-  its_->strain = std::make_unique<StrainMeter>(*its_->body);
-  begin_increment();
+  const auto at = [impl = its_.get()](double time) {
+    TimedPose moment{time, impl->cursor.at(time)};
+    stop(moment.pose);
+    return moment;
+  };
+  its_->increments = std::make_unique<LoadIncrements>(*its_->body, std::move(steps), *its_->stepper,
+                                                      its_->stepping, its_->particles, at);
+  forget_read();
 }
 
 double Simulation::time() const {
-  return its_->relaxation ? its_->relaxation->time()
+  return its_->increments ? relaxation()->time()
                           : its_->plan_since + its_->plan.time(its_->steps - its_->plan_from);
 }
 
@@ -163,7 +167,7 @@ void Simulation::play(Motion motion) {
 }
 
 void Simulation::set_time_step(double step) {
-  if (its_->relaxation || !its_->plan.is_even())
+  if (its_->increments || !its_->plan.is_even())
     throw bad_input("the steps follow a plan", "give the step before the run, in the plan");
   if (!(step > 0) || !is_computable(step))
     throw bad_input("a time step of " + three_digits(step) + " s", "give a positive one");
@@ -176,7 +180,7 @@ void Simulation::set_material(const Material& material) {
   if (its_->body->grouping || its_->dynamic)
     throw bad_input("groups of particles are made for one material, which another cannot replace",
                     "set hierarchy.enabled to false");
-  if (its_->relaxation)
+  if (its_->increments)
     throw bad_input("a body that is brought to rest has the material that it began with",
                     "begin a simulation of that material");
   check_variant(its_->body->material, material);
@@ -234,7 +238,7 @@ void Simulation::advance(std::int64_t steps) {
   while (steps > 0) {
     its_->evaluated = false;
     if (its_->read) forget_read();
-    if (its_->relaxation) {
+    if (its_->increments) {
       relax_once();
       --steps;
       continue;
@@ -287,48 +291,11 @@ void Simulation::add(const StepSums& sums) {
   ++its_->steps;
 }
 
-/// A load that would strain the body too much at once is applied in increments.
 void Simulation::relax_once() {
-  using enum Relaxation::Outcome;
-  Relaxation& relaxation = *its_->relaxation;
-  relaxation.begin_iteration();
-  const auto outcome = relaxation.iterate(*its_->stepper, moment(), its_->offenders);
-  if (outcome == failed) fail();
-  if (outcome == shortened) set_step(relaxation.step());
-  if (outcome == moved) {
-    ++its_->steps;
-    if (relaxation.strain_is_due()) give_up_increment(strain_while_moving);
-  }
-  if (outcome != at_rest || give_up_increment(1)) return;
-  relaxation.accept(strain_of_increment());
-  begin_increment();
-}
-
-IncrementStrain Simulation::strain_of_increment() const {
-  forget_read();
-  return its_->strain->since(positions_by_id(particles()));
-}
-
-void Simulation::begin_increment() {
-  forget_read();
-  its_->strain->begin(positions_by_id(particles()));
-  its_->begun.reset();
-  its_->begun = std::make_shared<const SimulationState>(save());
-}
-
-/// Returns to where the present increment of a load began, to try a shorter one, where it strains
-/// the body more than so many times what it may.
-bool Simulation::give_up_increment(double times) {
-  IncrementStrain found = strain_of_increment();
-  found.strain /= times;
-  if (times > 1) found.inverted = 0;  // it may come back
-  if (!its_->relaxation->is_too_large(found, its_->strain->inverted_at_begin())) return false;
-  SimulationState begun = *its_->begun;
-  begun.steps = its_->steps;
-  begun.relaxation = its_->relaxation->shorter(begun.relaxation, found.strain);
-  begun.increment_begun = its_->begun;
-  restore(begun);
-  return true;
+  const auto outcome = its_->increments->iterate(*its_->stepper, its_->steps, its_->offenders);
+  its_->stepping.step = relaxation()->step();
+  if (outcome == Relaxation::Outcome::failed) fail();
+  if (outcome == Relaxation::Outcome::moved) ++its_->steps;
 }
 
 /// The present one, as the stepper is told: bones of what relaxes stand still.
@@ -337,7 +304,7 @@ const TimedPose& Simulation::moment() const {
   TimedPose& now = its_->moments.front();
   now.time = time();
   now.pose = pose();
-  if (its_->relaxation) stop(now.pose);
+  if (its_->increments) stop(now.pose);
   return now;
 }
 
@@ -485,7 +452,7 @@ Energies Simulation::energies() {
   energies.work_of_bones = its_->ledger.work_until(its_->balance.power);
   energies.dissipation = its_->ledger.dissipation_until(its_->balance.lost) + lost_by_merging();
   energies.contact = its_->balance.contact_energy;
-  if (its_->relaxation) {  // no moment follows from the one before by a motion
+  if (its_->increments) {  // no moment follows from the one before by a motion
     energies.work_of_bones = energies.work_of_world = energies.dissipation =
         std::numeric_limits<double>::quiet_NaN();
     return energies;
@@ -542,10 +509,7 @@ SimulationState Simulation::save() const {
   state.ledger = its_->ledger.entries();
   state.world_ledger = its_->world_ledger.entries();
   state.held_at_start = its_->held_at_start;
-  if (its_->relaxation) {
-    state.relaxation = its_->relaxation->state();
-    state.increment_begun = its_->begun;
-  }
+  if (its_->increments) its_->increments->save(state);
   if (its_->dynamic)
     state.grouping = its_->body->grouping->group, state.regrouping = its_->dynamic->state();
   return state;
@@ -556,7 +520,7 @@ void Simulation::restore(const SimulationState& state) {
   if (!is_finite(state.ledger) || !is_finite(state.world_ledger) ||
       !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
-  if (its_->relaxation) its_->relaxation->restore(state.relaxation);
+  if (its_->increments) its_->increments->restore(*its_->stepper, state);
   if (its_->dynamic) {
     Grouping grouping = its_->dynamic->grouping_of(state.grouping);
     its_->dynamic->restore(state.regrouping);
@@ -566,7 +530,7 @@ void Simulation::restore(const SimulationState& state) {
   its_->plan_from = state.even.from;
   its_->plan_since = state.even.since;
   const double last =
-      its_->relaxation ? its_->relaxation->step()
+      its_->increments ? relaxation()->step()
       : state.even.made > 0
           ? state.even.made
           : its_->plan.step(std::max<std::int64_t>(0, state.steps - its_->plan_from - 1));
@@ -577,21 +541,6 @@ void Simulation::restore(const SimulationState& state) {
   its_->world_ledger.restore(state.world_ledger, last);
   its_->held_at_start = state.held_at_start;
   its_->evaluated = false;
-  forget_read();
-  if (its_->relaxation) go_on_with_increment(state);
-}
-
-void Simulation::go_on_with_increment(const SimulationState& state) {
-  if (!state.increment_begun) return begin_increment();
-  if (state.increment_begun == its_->begun) return;
-  const auto go_to = [this](const SimulationState& there) {
-    its_->relaxation->restore(there.relaxation);  // what supports hold is where they are then
-    its_->stepper->restore(there);
-  };
-  go_to(*state.increment_begun);
-  begin_increment();
-  its_->begun = state.increment_begun;
-  go_to(state);
   forget_read();
 }
 

@@ -22,7 +22,6 @@ class Relaxation;
 class StepPlan;
 class Stepper;
 struct DynamicOptions;
-struct IncrementStrain;
 struct ListCounts;
 struct LoadSteps;
 struct Motion;
@@ -145,10 +144,6 @@ class Simulation {
   void make_steps(std::int64_t count);
   void add(const StepSums& sums);
   void relax_once();
-  IncrementStrain strain_of_increment() const;
-  void begin_increment();
-  bool give_up_increment(double times);
-  void go_on_with_increment(const SimulationState& state);
   void check_groups();
   void take(NewGroups made);
   void move_in(Grouping grouping);

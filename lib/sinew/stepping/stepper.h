@@ -121,7 +121,10 @@ class Stepper {
   /// accept() does.
   virtual StepSums try_step(const TimedPose&, double) { return {}; }
   virtual void accept() {}
-  virtual void halt() {}  ///< all velocities become 0
+  virtual void halt() {}            ///< all velocities become 0
+  enum class Move { slight, far };  ///< slight: much less than a radius, and back again
+  /// Puts the particles at these places, in the caller's order.
+  virtual void place(const Points&, Move) {}
 
   // Groups of particles that move as one, of steppers that have them.
 

@@ -22,8 +22,8 @@ bool is_elastic(const Material& material) {
 
 }  // namespace
 
-StrainMeter::StrainMeter(const Body& body)
-    : shape_(rest_shape(body.rest, neighbors_of(body)->nearest)),
+StrainMeter::StrainMeter(const Body& body, const RestNeighbors& near)
+    : shape_(rest_shape(body.rest, near.nearest)),
       all_count_(is_elastic(body.material)),
       range_(parted * rest_neighbor_range(body.material.pair.r)) {}
 

@@ -16,7 +16,7 @@ namespace sinew {
 
 class StrainMeter {
  public:
-  explicit StrainMeter(const Body& body);
+  StrainMeter(const Body& body, const RestNeighbors& near);
 
   /// The positions, by id, from which strain counts (n x 3, m).
   void begin(Points positions);

@@ -519,6 +519,15 @@ void ListStepper<Real>::halt() {
 }
 
 template <class Real>
+void ListStepper<Real>::place(const Points& positions, Move move) {
+  for (std::size_t k = 0; k < layout_.size(); ++k)
+    layout_.now.set_position(k, positions[layout_.caller()[k]], layout_.units());
+  if (move == Move::slight) return;
+  lists_ = lists_.cleared(stepping_.step);
+  stepped_ = false;
+}
+
+template <class Real>
 Imbalance ListStepper<Real>::imbalance() const {
   const double L = layout_.units().length, T = layout_.units().time;
   Imbalance sum;

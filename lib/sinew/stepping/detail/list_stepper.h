@@ -47,6 +47,7 @@ class ListStepper final : public Stepper {
   StepSums try_step(const TimedPose& now, double keep) override;
   void accept() override;
   void halt() override;
+  void place(const Points& positions, Move move) override;
 
   bool has_groups() const override { return true; }
   void regroup() override;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the model itself costs a scene: figures measured on bodies of known shape, for what the
+// scene uses, beside its own layers of particles. They are no faults of the scene.
+//
+//     for (const ModelLimit& limit : model_limits(prepared)) print(limit.key, limit.value);
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sinew/scene/prepare.h>
+
+namespace sinew {
+
+struct ModelLimit {
+  std::string key;
+  double value = 0;
+  std::string text;  ///< what it is a factor on, or a bound of
+};
+
+/// crack_energy_factor where bonds break by an energy; bulk_compression_factor where volumes are
+/// kept and pressed on; friction_floor where bodies may touch; grip_factor where two supports pull.
+std::vector<ModelLimit> model_limits(const Prepared& prepared);
+
+/// How much too stiff a bar is between the layers that two supports hold, which do not stretch: N /
+/// (N - 1) for N layers; the largest of all pairs, 1 without any.
+double grip_factor(const Body& body);
+
+/// How much more than its bulk modulus says a cube of so many layers is compressed by a pressure
+/// all around, for its skin keeps its volume less.
+double bulk_compression_factor(double layers, double poisson_ratio);
+
+}  // namespace sinew

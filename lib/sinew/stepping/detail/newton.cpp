@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/stepping/detail/newton.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <sinew/body/step_plan.h>
+#include <sinew/material/laws.h>
+#include <sinew/stepping/equilibrium.h>
+#include <sinew/world/world.h>
+
+namespace sinew {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// A correction may turn or strain any pair by so much: by more, the tangent says nothing.
+constexpr double max_gradient = 0.3;
+
+std::string why_not_in(const World& world) {
+  for (const Obstacle& one : world.obstacles)
+    if (one.friction > 0 || one.stick > 0) return "obstacles rub";
+  for (const Load& load : world.loads)
+    if (load.pressure != 0) return "a pressure follows the surface";
+  for (const Pinned& pin : world.pins)
+    if (pin.is_oblique()) return "a roller is oblique";
+  return "";
+}
+
+/// Layers of particles, each bonded to the one before, from one end of each piece of the body on.
+std::vector<std::size_t> layers_of(const NeighborLists& near) {
+  std::vector<std::size_t> sizes;
+  std::vector<bool> seen(near.size(), false);
+  const auto layers_from = [&](std::uint32_t start, std::vector<bool>& met) {
+    std::vector<std::vector<std::uint32_t>> layers = {{start}};
+    met[start] = true;
+    while (true) {
+      std::vector<std::uint32_t> next;
+      for (const std::uint32_t i : layers.back())
+        for (const std::uint32_t j : near.of(i))
+          if (!met[j]) met[j] = true, next.push_back(j);
+      if (next.empty()) return layers;
+      layers.push_back(std::move(next));
+    }
+  };
+  for (std::uint32_t i = 0; i < near.size(); ++i) {
+    if (seen[i]) continue;
+    std::vector<bool> met = seen;
+    const std::uint32_t end = layers_from(i, met).back().front();
+    for (const auto& layer : layers_from(end, seen)) sizes.push_back(layer.size());
+  }
+  return sizes;
+}
+
+/// Nonzeros of a factor whose unknowns are ordered layer by layer.
+double banded_nonzeros(const std::vector<std::size_t>& layers, bool keeps_volume) {
+  double all = 0, before = 0;
+  for (const std::size_t size : layers) {
+    const double width = 3.0 * static_cast<double>(size) * (keeps_volume ? 2 : 1);
+    all += 3.0 * static_cast<double>(size) * (width / 2 + before);
+    before = width;
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string why_not_newton(const Body& body, const Stepping& stepping) {
+  if (!law_of(body.material).has_bonds) return "bodies without bonds flow";
+  if (law_of(body.material).kernel != nullptr) return "the law is a program's own";
+  if (bonds_change(body.material) || !body.local.breaking.empty() || !body.local.yield.empty())
+    return "bonds break or flow";
+  if (body.material.friction > 0) return "parts of the body rub";
+  if (stepping.precision == Precision::binary32) return "single precision hides the tangent";
+  return body.world ? why_not_in(*body.world) : "";
+}
+
+StaticCost relaxation_cost(const Body& body, double residual) {
+  // Measured: bars of 7 to 11 layers across and 5 to 25 times as long, under a force at an end.
+  // The slowest mode of a bar of l layers, each of p particles, has a period of l^2 / sqrt(p).
+  constexpr double slowness = 8, particles_per_second = 20e6;
+  const auto count = static_cast<double>(body.rest.size());
+  const auto length = static_cast<double>(layers_of(neighbors_of(body)->all()).size());
+  StaticCost cost;
+  cost.iterations = slowness * length * length / std::sqrt(count / length) * -std::log(residual);
+  cost.relaxation = cost.iterations * count / particles_per_second;
+  return cost;
+}
+
+StaticCost with_factor(StaticCost cost, const Body& body) {
+  constexpr double solutions = 6, products_per_second = 0.7e9;
+  constexpr double too_large = 4 * max_factor;  // for an analysis; the band is an upper bound
+  const SharedNeighbors near = neighbors_of(body);
+  cost.nonzeros = banded_nonzeros(layers_of(near->all()), keeps_volume(body));
+  if (cost.nonzeros > too_large) return cost;
+  const Particles particles = particles_at(body.rest, body.material.pair.r, body.material.mass);
+  const Newton newton(body, *near, particles, Vec3::Zero());
+  cost.nonzeros = newton.nonzeros();
+  cost.newton = solutions * newton.products() / products_per_second;
+  return cost;
+}
+
+Newton::Newton(const Body& body, const RestNeighbors& near, const Particles& particles,
+               const Vec3& gravity)
+    : tangent_(body, near, particles.id), gravity_(gravity) {
+  particles_.radius = particles.radius;
+  particles_.mass = particles.mass;
+  particles_.id = particles.id;
+  factor_.analyzePattern(tangent_.pattern());
+}
+
+const Points& Newton::read(Stepper& stepper, const TimedPose& now) {
+  stepper.read(now, particles_);
+  positions_.resize(particles_.size());
+  for (std::size_t i = 0; i < positions_.size(); ++i) positions_[i] = particles_.position(i);
+  return positions_;
+}
+
+std::optional<Newton::Solution> Newton::predict(Stepper& stepper, const TimedPose& begin,
+                                                const TimedPose& soon, double part) {
+  const Tangent::Matrix matrix = tangent_.at(stepper, begin, read(stepper, begin));
+  const Tangent::Vector before = tangent_.forces(stepper, begin, gravity_),
+                        after = tangent_.forces(stepper, soon, gravity_);
+  auto solution = solve(matrix, before + (after - before) / part, infinity);
+  stepper.place(positions_, Stepper::Move::slight);
+  return solution;
+}
+
+std::optional<Newton::Solution> Newton::correct(Stepper& stepper, const TimedPose& now) {
+  const Tangent::Matrix matrix = tangent_.at(stepper, now, read(stepper, now));
+  return solve(matrix, tangent_.forces(stepper, now, gravity_), max_gradient);
+}
+
+std::optional<Newton::Solution> Newton::solve(const Tangent::Matrix& matrix,
+                                              const Tangent::Vector& forces, double max_gradient) {
+  factor_.factorize(matrix);
+  if (factor_.info() != Eigen::Success) return std::nullopt;
+  Tangent::Vector by = factor_.solve(forces);
+  if (!by.allFinite()) return std::nullopt;
+  const double gradient = tangent_.largest_gradient(positions_, by);
+  if (gradient > max_gradient) by *= max_gradient / gradient;
+  const std::int64_t negative = (factor_.vectorD().array() < 0).count();
+  return Solution{tangent_.moved(positions_, by), negative};
+}
+
+}  // namespace sinew
