@@ -5,6 +5,7 @@
 #include <sinew/groups/groups.h>
 #include <sinew/groups/kept_free.h>
 #include <sinew/groups/make_grouping.h>
+#include <sinew/groups/near_obstacles.h>
 #include <sinew/groups/static_groups.h>
 
 namespace sinew {
@@ -20,12 +21,14 @@ namespace {
 bool groups_are_built() { return false; }
 bool supports_cubic_groups(const Body&) { return false; }
 void check_groupable(const Body&) { refuse(); }
+void check_groupable_as_it_moves(const Body&) { refuse(); }
 Grouping make_grouping(const Body&, std::vector<std::int32_t>, std::size_t, SharedNeighbors) {
   refuse();
 }
 Grouping static_groups(const Body&, const std::vector<bool>&, const GroupSizes&) { refuse(); }
 std::vector<bool> moving_joints(const Skeleton&, const Motion&, double) { refuse(); }
 std::vector<std::uint8_t> kept_free(const Body&, const AskedFree&) { refuse(); }
+std::vector<std::uint8_t> near_obstacles(const Body&, const Motion&, double) { refuse(); }
 
 template <class Real>
 struct Groups<Real>::Impl {};

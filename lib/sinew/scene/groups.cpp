@@ -9,6 +9,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
 #include <sinew/groups/kept_free.h>
+#include <sinew/groups/near_obstacles.h>
 #include <sinew/groups/static_groups.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/rig.h>
@@ -42,6 +43,8 @@ void check_groups(const Settings& settings, const Body& body) {
     throw bad_input(place, "the paper's cells have no groups",
                     "set solver.neighbor_search to lists, or hierarchy.enabled to false");
   with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
+  if (settings.hierarchy.dynamic)
+    with_context(settings, "hierarchy.dynamic", [&] { check_groupable_as_it_moves(body); });
   if (settings.hierarchy.motion != GroupForm::cubic) return;
   const Place motion = settings.place("hierarchy.motion");
   if (!supports_cubic_groups(body))
@@ -82,17 +85,26 @@ AskedFree asked_free(const Settings& settings, const Body& body) {
   return asked;
 }
 
+/// What any of two marks, each empty where it marks nothing.
+std::vector<std::uint8_t> united(std::vector<std::uint8_t> one, std::vector<std::uint8_t> other) {
+  if (one.empty()) return other;
+  for (std::size_t i = 0; i < other.size(); ++i) one[i] |= other[i];
+  return one;
+}
+
 }  // namespace
 
 /// Groups are cubic where they may, unless the scene says otherwise.
-std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body) {
+std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body,
+                                      const Motion& motion) {
   const HierarchySettings& asked = settings.hierarchy;
   if (!asked.enabled) return {};
   check_groups(settings, body);
   GroupSizes sizes;
   sizes.joint_distance = asked.joint_distance.value_or(affine_distance);
   sizes.min_particles = static_cast<std::size_t>(asked.min_particles);
-  sizes.kept_free = kept_free(body, asked_free(settings, body));
+  sizes.kept_free = united(kept_free(body, asked_free(settings, body)),
+                           near_obstacles(body, motion, settings.solver.duration));
   if (asked.motion == GroupForm::affine || !supports_cubic_groups(body)) return sizes;
   sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance_of(body));
   sizes.min_cubic = std::max(sizes.min_particles, sizes.min_cubic);
