@@ -9,7 +9,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/groups/near_obstacles.h>
+#include <sinew/groups/kept_free.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Groups beside obstacles: what these press is free and yields, as it would without groups.
+// Groups beside obstacles, and beside other bodies: what presses on each other is free and yields,
+// as it would without groups.
 #include <gtest/gtest.h>
 
-#include <sinew/groups/near_obstacles.h>
+#include <sinew/groups/kept_free.h>
 #include <sinew/groups/static_groups.h>
 
 #include "support/expect_error.h"
@@ -104,6 +105,57 @@ TEST(NearObstacles, ForcesAreThoseWithoutGroups) {
       EXPECT_GT(grouped.grouped, 0.02);
     }
   }
+}
+
+/// Two bars, one across the other, of which one is moved by 3 radii into the other, or away from
+/// it.
+struct Crossed {
+  Points rest;
+  Settings settings;
+
+  explicit Crossed(double radii) {
+    rest = test::fcc_box(13, 13, 49, r);
+    const double middle = 25 * s, shift = 13 * s + r;
+    for (const Vec3& X : test::fcc_box(13, 13, 49, r))
+      rest.emplace_back(X.x() + shift, X.z() - middle, X.y() + middle);
+    settings = bar_with({});
+    settings.world = {};
+    const Vec3 low(shift, -middle, middle), high(shift, middle, middle);
+    settings.bones = {{"lower", "", Vec3(0, 0, 0), Vec3(0, 0, 2 * middle)},
+                      {"upper", "", low, high}};
+    KeyDefinition end = test::bend_key(0.15, 0);
+    end.translation = {-radii * r, 0, 0};
+    settings.tracks = {test::track("upper", {test::bend_key(0, 0), end})};
+  }
+
+  /// Between the bars, N, and the fraction of them that is grouped.
+  Pressed pressed(bool enabled) const {
+    Settings given = settings;
+    given.hierarchy.enabled = enabled;
+    Simulation simulation = test::make_simulation(given, rest);
+    while (simulation.time() < settings.solver.duration) simulation.step();
+    const auto& grouping = simulation.body().grouping;
+    return {
+        simulation.reactions_of_bones().springs[0].force.norm(),
+        grouping ? static_cast<double>(grouping->grouped()) / static_cast<double>(rest.size()) : 0};
+  }
+};
+
+TEST(TouchingBodies, ForcesAreThoseWithoutGroups) {
+  const Crossed crossed(3);
+  const double alone = crossed.pressed(false).force;
+  ASSERT_GT(alone, 1);
+  const Pressed grouped = crossed.pressed(true);
+  EXPECT_NEAR(grouped.force, alone, 0.05 * alone);
+  EXPECT_GT(grouped.grouped, 0.1);
+}
+
+TEST(TouchingBodies, AreWholeWhereTheyDoNotMeet) {
+  EXPECT_GT(Crossed(-3).pressed(true).grouped, 0.99);
+  Settings one = test::box_scene(height);
+  one.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(1, 120)})};
+  const Prepared bent = prepared(one, false);
+  EXPECT_TRUE(touching_bodies(bent.body, bent.motion, 1).empty());
 }
 
 std::vector<std::uint8_t> near(const Settings& settings) {

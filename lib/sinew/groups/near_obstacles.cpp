@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/groups/near_obstacles.h>
+#include <sinew/groups/kept_free.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <map>
 #include <variant>
 
 #include <sinew/body/body.h>
-#include <sinew/core/parallel.h>
-#include <sinew/core/particles.h>
+#include <sinew/groups/detail/carried_cells.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
@@ -19,54 +15,6 @@ namespace {
 constexpr int moments_of_contact = 400;
 constexpr double contact_widths = 2;     // free up to here from an obstacle
 constexpr double min_body_width = 0.25;  // the body may be that far from where its bones carry it
-constexpr double cells_per_width = 12;
-constexpr std::size_t cells_at_a_time = 64;
-
-/// Particles next to each other at rest that a bone carries.
-struct Cell {
-  int bone = no_bone;
-  std::vector<std::uint32_t> particles = {};
-  Box box = {};
-
-  double radius() const { return box.diagonal().norm() / 2; }
-};
-
-/// Visits the bones of each particle: of those that no bone holds, the nearest one.
-template <class Visit>
-void for_each_bone(const Body& body, const Visit& visit) {
-  for (std::uint32_t i = 0; i < body.rest.size(); ++i) {
-    const auto influences = body.binding.of(i);
-    for (const Influence& one : influences) visit(i, one.bone);
-    if (influences.empty()) visit(i, nearest_bone(body.skeleton, body.rest[i]));
-  }
-}
-
-/// Returns the square root of the cross-section of what each bone carries, m.
-std::vector<double> widths_of(const Body& body) {
-  const double r = body.material.pair.r;
-  std::vector<double> width(body.skeleton.size(), 0);
-  for_each_bone(body, [&](std::uint32_t, int bone) {
-    width[static_cast<std::size_t>(bone)] += volume_per_particle(r);
-  });
-  for (std::size_t b = 0; b < width.size(); ++b)
-    width[b] = std::max(std::sqrt(width[b] / body.skeleton.bones[b].length), 2 * r);
-  return width;
-}
-
-std::vector<Cell> cells_of(const Body& body, const std::vector<double>& width) {
-  std::map<std::array<int, 4>, Cell> cells;
-  for_each_bone(body, [&](std::uint32_t i, int bone) {
-    const Vec3 at = body.rest[i] * (cells_per_width / width[static_cast<std::size_t>(bone)]);
-    const auto number = [&](int axis) { return static_cast<int>(std::floor(at[axis])); };
-    Cell& cell = cells[{bone, number(0), number(1), number(2)}];
-    cell.bone = bone;
-    cell.particles.push_back(i);
-    cell.box.extend(body.rest[i]);
-  });
-  std::vector<Cell> all;
-  for (auto& [place, cell] : cells) all.push_back(std::move(cell));
-  return all;
-}
 
 /// The distance to a shape, m; far from a mesh, that to its bounds, which is less.
 double distance_to(const Shape& shape, const Vec3& point, double limit) {
@@ -129,13 +77,6 @@ class Approach {
   std::vector<Moment> moments_;
 };
 
-template <class Job>
-void on_cells(const std::vector<Cell>& cells, const Job& job) {
-  parallel_for(cells.size(), cells_at_a_time, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) job(n);
-  });
-}
-
 /// Returns how wide what an obstacle presses is at rest, m; 0: it presses nothing.
 double contact_width(const Body& body, const Approach& approach, std::size_t obstacle,
                      const std::vector<Cell>& cells) {
@@ -160,7 +101,7 @@ std::vector<std::uint8_t> near_obstacles(const Body& body, const Motion& motion,
   const std::vector<double> width = widths_of(body);
   const std::vector<Cell> cells = cells_of(body, width);
   const Approach approach(body, motion, end);
-  std::vector<std::uint8_t> near(cells.size(), 0), free(body.rest.size(), 0);
+  std::vector<std::uint8_t> near(cells.size(), 0);
   for (std::size_t k = 0; k < body.world->obstacles.size(); ++k) {
     const double deep = contact_widths * contact_width(body, approach, k, cells);
     on_cells(cells, [&](std::size_t n) {
@@ -170,10 +111,7 @@ std::vector<std::uint8_t> near_obstacles(const Body& body, const Motion& motion,
       if (near[n] == 0 && approach.is_within(limit, k, cell.bone, cell.box.center())) near[n] = 1;
     });
   }
-  for (std::size_t n = 0; n < cells.size(); ++n)
-    if (near[n] != 0)
-      for (const std::uint32_t i : cells[n].particles) free[i] = 1;
-  return free;
+  return particles_of(cells, near, body.rest.size());
 }
 
 }  // namespace sinew

@@ -5,7 +5,6 @@
 #include <sinew/groups/groups.h>
 #include <sinew/groups/kept_free.h>
 #include <sinew/groups/make_grouping.h>
-#include <sinew/groups/near_obstacles.h>
 #include <sinew/groups/static_groups.h>
 
 namespace sinew {
@@ -29,6 +28,7 @@ Grouping static_groups(const Body&, const std::vector<bool>&, const GroupSizes&)
 std::vector<bool> moving_joints(const Skeleton&, const Motion&, double) { refuse(); }
 std::vector<std::uint8_t> kept_free(const Body&, const AskedFree&) { refuse(); }
 std::vector<std::uint8_t> near_obstacles(const Body&, const Motion&, double) { refuse(); }
+std::vector<std::uint8_t> touching_bodies(const Body&, const Motion&, double) { refuse(); }
 
 template <class Real>
 struct Groups<Real>::Impl {};

@@ -9,7 +9,6 @@
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
 #include <sinew/groups/kept_free.h>
-#include <sinew/groups/near_obstacles.h>
 #include <sinew/groups/static_groups.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/rig.h>
@@ -85,11 +84,16 @@ AskedFree asked_free(const Settings& settings, const Body& body) {
   return asked;
 }
 
-/// What any of two marks, each empty where it marks nothing.
-std::vector<std::uint8_t> united(std::vector<std::uint8_t> one, std::vector<std::uint8_t> other) {
-  if (one.empty()) return other;
-  for (std::size_t i = 0; i < other.size(); ++i) one[i] |= other[i];
-  return one;
+/// Marks what the scene asks for, and where a group would be too stiff.
+std::vector<std::uint8_t> free_particles(const Settings& settings, const Body& body,
+                                         const Motion& motion) {
+  const double end = settings.solver.duration;
+  std::vector<std::uint8_t> free = kept_free(body, asked_free(settings, body));
+  for (const auto& marks : {near_obstacles(body, motion, end), touching_bodies(body, motion, end)}) {
+    free.resize(std::max(free.size(), marks.size()), 0);
+    for (std::size_t i = 0; i < marks.size(); ++i) free[i] |= marks[i];
+  }
+  return free;
 }
 
 }  // namespace
@@ -103,8 +107,7 @@ std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body
   GroupSizes sizes;
   sizes.joint_distance = asked.joint_distance.value_or(affine_distance);
   sizes.min_particles = static_cast<std::size_t>(asked.min_particles);
-  sizes.kept_free = united(kept_free(body, asked_free(settings, body)),
-                           near_obstacles(body, motion, settings.solver.duration));
+  sizes.kept_free = free_particles(settings, body, motion);
   if (asked.motion == GroupForm::affine || !supports_cubic_groups(body)) return sizes;
   sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance_of(body));
   sizes.min_cubic = std::max(sizes.min_particles, sizes.min_cubic);
