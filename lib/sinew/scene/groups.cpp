@@ -89,7 +89,8 @@ std::vector<std::uint8_t> free_particles(const Settings& settings, const Body& b
                                          const Motion& motion) {
   const double end = settings.solver.duration;
   std::vector<std::uint8_t> free = kept_free(body, asked_free(settings, body));
-  for (const auto& marks : {near_obstacles(body, motion, end), touching_bodies(body, motion, end)}) {
+  for (const auto& marks :
+       {near_obstacles(body, motion, end), touching_bodies(body, motion, end)}) {
     free.resize(std::max(free.size(), marks.size()), 0);
     for (std::size_t i = 0; i < marks.size(); ++i) free[i] |= marks[i];
   }
