@@ -9,6 +9,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/groups/kept_free.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
@@ -192,7 +193,7 @@ void add_load_steps(const Prepared& prepared, double rate, Results& results) {
 
 /// What groups that stay bring a body at rest: trials with them and without.
 void add_groups(const Prepared& prepared, Results& results, std::vector<std::string>& warnings) {
-  const auto sizes = group_sizes(prepared.settings, prepared.body);
+  const auto sizes = group_sizes(prepared.settings, prepared.body, prepared.motion);
   if (!sizes) return;
   const auto best_speed = [&](const std::shared_ptr<const Grouping>& grouping) {
     Prepared tried = prepared;
@@ -212,6 +213,10 @@ void add_groups(const Prepared& prepared, Results& results, std::vector<std::str
     return 100 * static_cast<double>(count) / static_cast<double>(prepared.body.rest.size());
   };
   results.add("grouped", percent(grouping->grouped()), "%");
+  if (const auto near =
+          near_obstacles(prepared.body, prepared.motion, prepared.settings.solver.duration);
+      !near.empty())
+    results.add("free_near_obstacles", std::count(near.begin(), near.end(), 1), "particles");
   results.add("within_groups", percent(grouping->inside()), "%");
   if (grouping->size() == 0) {  // too small: what groups of any size would bring
     GroupSizes small = *sizes;

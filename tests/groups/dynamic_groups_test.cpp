@@ -183,35 +183,25 @@ TEST(DynamicGroups, KeepMomentumWhereTheyChange) {
   }
 }
 
-TEST(DynamicGroups, WhatABallHitsIsFree) {
-  Bar bar = flying(MaterialModel::bonded);
-  for (std::size_t i = 0; i < bar.rest.size(); ++i) bar.particles.set_velocity(i, Vec3(0, 0, -1));
-  World world;
-  Obstacle floor;
-  floor.shape = PlaneShape{{0, 0, -0.05}, {0, 0, 1}};
-  floor.stiffness = bar.body.material.pair.contact_stiffness();
-  world.obstacles = {floor};
-  bar.body.world = std::make_shared<const World>(world);
-  Simulation simulation = begin(bar);
-  EXPECT_EQ(grouped_fraction(simulation), 1);
-  const auto lowest = [&] {
-    const std::vector<double>& z = simulation.particles().z;
-    return *std::min_element(z.begin(), z.end());
-  };
-  while (lowest() > -0.05 + r) simulation.step();
-  for (int step = 0; step < 100; ++step) simulation.step();
-  EXPECT_LT(grouped_fraction(simulation), 1);
-  const Grouping& grouping = *simulation.body().grouping;
-  for (std::size_t i = 0; i < bar.rest.size(); ++i)
-    EXPECT_TRUE(bar.rest[i].z() > 4 * r || grouping.group[i] < 0) << i;
-}
-
 TEST(DynamicGroups, RefuseWhatTheyCannotBeCombinedWith) {
   Bar bar = flying(MaterialModel::bonded);
   bar.settings.solver.neighbor_search = NeighborSearch::cells;
   bar.body.grouping.reset();
   Simulation cells = bar.begin();
   test::expect_bad_input([&] { cells.enable_dynamic_groups(options); }, {"cells have no groups"});
+}
+
+TEST(DynamicGroups, RefuseObstaclesOfBodiesWithoutBones) {
+  Bar bar = flying(MaterialModel::bonded);
+  World world;
+  world.obstacles.emplace_back().name = "floor";
+  bar.body.world = std::make_shared<const World>(world);
+  bar.body.grouping.reset();
+  bar.body.binding = {};
+  bar.body.binding.first.assign(bar.rest.size() + 1, 0);
+  Simulation simulation = bar.begin();
+  test::expect_bad_input([&] { simulation.enable_dynamic_groups(options); },
+                         {"obstacle 'floor'", "no bone holds", "; set hierarchy.dynamic to false"});
 }
 
 TEST(DynamicGroups, RefuseAnotherMotion) {

@@ -156,6 +156,20 @@ class World(unittest.TestCase):
         self.assertGreater(lowest, -0.1)  # centers stay above the floor
         self.assertLess(lowest, -0.05)
 
+    @unittest.skipUnless(small_run.HAS_GROUPS, "built without groups")
+    def test_groups_keep_free_what_obstacles_press(self):
+        scene = self.folder / "press.yaml"
+        grouped = ["--set", "hierarchy.enabled=true", "hierarchy.min_particles=64"]
+        scene.write_text(FALL.format(source=SOURCE) + "hierarchy: {dynamic: true}\n")
+        done = small_run.sinew("check", scene, *grouped, check=2)
+        for part in ["press.yaml:7:", "obstacle 'floor'", "no bone holds", "set hierarchy.dynamic to false"]:
+            self.assertIn(part, done.stderr)
+        scene.write_text(FALL.format(source=SOURCE).replace("point: [0, 0, -0.1]", "bone: foot") +
+                         "skeleton: {bones: [{name: foot, head: [0, 0, 0], tail: [0, 0, 0.69]}]}\n")
+        found = json.loads(sinew("check", scene, "--json", *grouped).stdout)
+        self.assertGreater(found["free_near_obstacles"], 20)
+        self.assertGreater(found["grouped"], 20)
+
     def test_mistakes_name_their_line(self):
         for old, new, said in [
                 ("bone: upper}}\n  fields", "bone: uper}}\n  fields", "there is no bone 'uper'"),

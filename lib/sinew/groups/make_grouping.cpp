@@ -300,4 +300,15 @@ void check_groupable(const Body& body) {
                     "remove them");
 }
 
+void check_groupable_as_it_moves(const Body& body) {
+  check_groupable(body);
+  if (!body.world || body.world->obstacles.empty()) return;
+  for (std::size_t i = 0; i < body.rest.size(); ++i)
+    if (body.binding.of(i).empty())
+      throw bad_input("where obstacle '" + body.world->obstacles.front().name +
+                          "' will press particles that no bone holds is not known, and groups do "
+                          "not yield there",
+                      "set hierarchy.dynamic to false, or bind all particles to bones");
+}
+
 }  // namespace sinew

@@ -75,5 +75,7 @@ bool supports_cubic_groups(const Body& body);
 /// Throws bad input, which names what is wrong, where the body is no lattice of centers of
 /// inversion, or where forces on it depend on more than its neighbors.
 void check_groupable(const Body& body);
+/// The same for groups that change: where obstacles press is known of what bones carry alone.
+void check_groupable_as_it_moves(const Body& body);
 
 }  // namespace sinew

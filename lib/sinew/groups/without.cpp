@@ -20,12 +20,15 @@ namespace {
 bool groups_are_built() { return false; }
 bool supports_cubic_groups(const Body&) { return false; }
 void check_groupable(const Body&) { refuse(); }
+void check_groupable_as_it_moves(const Body&) { refuse(); }
 Grouping make_grouping(const Body&, std::vector<std::int32_t>, std::size_t, SharedNeighbors) {
   refuse();
 }
 Grouping static_groups(const Body&, const std::vector<bool>&, const GroupSizes&) { refuse(); }
 std::vector<bool> moving_joints(const Skeleton&, const Motion&, double) { refuse(); }
 std::vector<std::uint8_t> kept_free(const Body&, const AskedFree&) { refuse(); }
+std::vector<std::uint8_t> near_obstacles(const Body&, const Motion&, double) { refuse(); }
+std::vector<std::uint8_t> touching_bodies(const Body&, const Motion&, double) { refuse(); }
 
 template <class Real>
 struct Groups<Real>::Impl {};

@@ -42,6 +42,8 @@ void check_groups(const Settings& settings, const Body& body) {
     throw bad_input(place, "the paper's cells have no groups",
                     "set solver.neighbor_search to lists, or hierarchy.enabled to false");
   with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
+  if (settings.hierarchy.dynamic)
+    with_context(settings, "hierarchy.dynamic", [&] { check_groupable_as_it_moves(body); });
   if (settings.hierarchy.motion != GroupForm::cubic) return;
   const Place motion = settings.place("hierarchy.motion");
   if (!supports_cubic_groups(body))
@@ -82,17 +84,31 @@ AskedFree asked_free(const Settings& settings, const Body& body) {
   return asked;
 }
 
+/// Marks what the scene asks for, and where a group would be too stiff.
+std::vector<std::uint8_t> free_particles(const Settings& settings, const Body& body,
+                                         const Motion& motion) {
+  const double end = settings.solver.duration;
+  std::vector<std::uint8_t> free = kept_free(body, asked_free(settings, body));
+  for (const auto& marks :
+       {near_obstacles(body, motion, end), touching_bodies(body, motion, end)}) {
+    free.resize(std::max(free.size(), marks.size()), 0);
+    for (std::size_t i = 0; i < marks.size(); ++i) free[i] |= marks[i];
+  }
+  return free;
+}
+
 }  // namespace
 
 /// Groups are cubic where they may, unless the scene says otherwise.
-std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body) {
+std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body,
+                                      const Motion& motion) {
   const HierarchySettings& asked = settings.hierarchy;
   if (!asked.enabled) return {};
   check_groups(settings, body);
   GroupSizes sizes;
   sizes.joint_distance = asked.joint_distance.value_or(affine_distance);
   sizes.min_particles = static_cast<std::size_t>(asked.min_particles);
-  sizes.kept_free = kept_free(body, asked_free(settings, body));
+  sizes.kept_free = free_particles(settings, body, motion);
   if (asked.motion == GroupForm::affine || !supports_cubic_groups(body)) return sizes;
   sizes.cubic_distance = asked.joint_distance.value_or(cubic_distance_of(body));
   sizes.min_cubic = std::max(sizes.min_particles, sizes.min_cubic);

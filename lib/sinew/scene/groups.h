@@ -18,7 +18,8 @@ namespace sinew {
 
 /// How large groups are, and what stays free; none where the scene asks for no groups. Throws bad
 /// input, with the scene's line, where it cannot have any.
-std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body);
+std::optional<GroupSizes> group_sizes(const Settings& settings, const Body& body,
+                                      const Motion& motion);
 
 /// What is far from all joints that move within the run.
 std::shared_ptr<const Grouping> groups_that_stay(const Settings& settings, const Body& body,

@@ -193,7 +193,7 @@ void refuse_free(const Settings& settings, const Body& body) {
 
 /// Groups that stay, or sizes of those that change.
 void set_groups(Prepared& prepared) {
-  const auto sizes = group_sizes(prepared.settings, prepared.body);
+  const auto sizes = group_sizes(prepared.settings, prepared.body, prepared.motion);
   if (!sizes) return;
   if (prepared.settings.hierarchy.dynamic)
     prepared.dynamic_groups = {*sizes, prepared.settings.hierarchy.tolerance,

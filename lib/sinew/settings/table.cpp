@@ -324,8 +324,10 @@ std::vector<Field<Settings>> make_solver() {
 std::vector<Field<Settings>> make_hierarchy() {
   using S = Settings;
   return {
-      field<S>("hierarchy", "enabled", SINEW_AT(S, hierarchy.enabled), "",
-               "groups what is far from joints that move: no forces are computed within; fcc"),
+      field<S>(
+          "hierarchy", "enabled", SINEW_AT(S, hierarchy.enabled), "",
+          "groups what is far from joints that move and from obstacles: no forces are computed "
+          "within; fcc"),
       field<S>("hierarchy", "dynamic", SINEW_AT(S, hierarchy.dynamic), "",
                "groups change: cells join that move affinely, and leave where forces tear"),
       choice<S>("hierarchy", "motion", SINEW_AT(S, hierarchy.motion), {"affine", "cubic"},

@@ -320,7 +320,7 @@ std::int64_t Simulation::regroupings() const {
 void Simulation::enable_dynamic_groups(const DynamicOptions& options) {
   if (!its_->stepper->has_groups())
     throw bad_input("the paper's cells have no groups", "search neighbors by lists");
-  check_groupable(*its_->body);
+  check_groupable_as_it_moves(*its_->body);
   move_in(make_grouping(*its_->body, std::vector<std::int32_t>(its_->body->rest.size(), -1),
                         none_cubic, options.near));
   its_->dynamic =

@@ -228,6 +228,7 @@ StepSums ListStepper<Real>::run(kernel::Step<Real> now, const Pose& pose) {
   const auto work = work_.step[inverse_count_.empty() ? kernel::to_the_mean : kernel::pairwise];
   on_all_pieces(
       [&](std::size_t first, std::size_t last) { surroundings_.run(work, now, first, last); });
+  if (groups_.any()) surroundings_.refuse_contact_of_groups();
   move_groups(now);
   StepSums sums = sums_of_totals();
   if (!std::all_of(totals_.begin(), totals_.end(),

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include <sinew/body/grouping.h>
+#include <sinew/core/error.h>
 #include <sinew/core/lines.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
@@ -182,6 +184,7 @@ void Surroundings<Real>::begin(const Pose& pose, double time, BlockState<Real>& 
   parallel_for(pieces_.size(), pieces_per_look, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       pieces_[piece].sums = {};
+      pieces_[piece].on_group = none;
       pieces_[piece].reactions.assign(world_->obstacles.size(), {});
       const bool pins = pins_on_bones_ && first_[piece] < first_[piece + 1];
       pieces_[piece].of_pins.assign(pins ? body_->skeleton.size() : 0, {});
@@ -301,6 +304,29 @@ void Surroundings<Real>::act(const kernel::Step<Real>& step, std::size_t piece, 
   }
 }
 
+/// Returns the obstacle that presses a particle of a group, or none.
+template <class Real>
+std::size_t Surroundings<Real>::presses_group(const ParticleState& particle) const {
+  if (!body_->grouping || body_->grouping->group[particle.id] < 0) return none;
+  for (std::size_t k = 0; k < world_->obstacles.size(); ++k)
+    if (contact(world_->obstacles[k], now_.obstacles[k], particle.position, particle.velocity,
+                particle.radius)
+            .pressing > 0)
+      return k;
+  return none;
+}
+
+template <class Real>
+void Surroundings<Real>::refuse_contact_of_groups() const {
+  for (const Piece& piece : pieces_)
+    if (piece.on_group != none)
+      throw Error(Exit::unstable,
+                  "obstacle '" + world_->obstacles[piece.on_group].name +
+                      "' reached a group of particles, which does not yield where it is pressed; "
+                      "free what it presses by hierarchy.free_region, free_bones or "
+                      "surface_distance, or set hierarchy.enabled to false");
+}
+
 /// Pins and supports take what all other forces leave.
 template <class Real>
 void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
@@ -315,6 +341,7 @@ void Surroundings<Real>::act_on(std::size_t k, Vec3& acceleration, Real& held) {
   ParticleWorld world;
   if (acts_in_space_)
     world = world_on(particle, mass, *world_, now_, others, stepping_.step, piece.reactions);
+  if (piece.on_group == none && !world.contact.isZero(0)) piece.on_group = presses_group(particle);
   const Vec3 given = friction + world.force();
   const Pinned* pin = is_held(k) ? &world_->pins[pin_[k]] : nullptr;
   acceleration += given / mass;

@@ -59,6 +59,10 @@ class Surroundings {
            std::size_t end);
   kernel::Loads<Real> loads() const { return loads_.arrays(); }
 
+  /// Throws Error (unstable), which names the obstacle, where one pressed a group of particles in
+  /// the last step: groups do not yield there.
+  void refuse_contact_of_groups() const;
+
   void set_step(double step);  ///< s
 
   void save(SimulationState& state) const {
@@ -82,11 +86,13 @@ class Surroundings {
 
  private:
   static constexpr std::uint32_t no_pin = UINT32_MAX;
+  static constexpr std::size_t none = SIZE_MAX;
   struct Piece {
     WorldSums sums;
     std::vector<Reaction> reactions;  ///< of obstacles
     std::vector<Reaction> of_pins;    ///< on bones
     std::vector<Reaction> support_reactions, load_reactions;
+    std::size_t on_group = none;  ///< the first obstacle that pressed a particle of a group
   };
 
   struct Rows;
@@ -97,6 +103,7 @@ class Surroundings {
   double mass_at(std::size_t k) const {
     return mass_of(*body_, static_cast<std::size_t>(id_[k]), mass_);
   }
+  std::size_t presses_group(const ParticleState& particle) const;
   void set_pins(std::span<const std::int32_t> id);
   Vec3 friction_on(std::size_t k, const Vec3& position, const Vec3& velocity);
   bool has_contacts(std::size_t block) const;
