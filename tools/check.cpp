@@ -104,6 +104,7 @@ void add_material(const Material& material, Results& results) {
   results.add("bulk_modulus", material.constants().bulk_modulus(), "Pa");
   if (material.bond.breaking_strain > 0)
     results.add("breaking_strain", material.bond.breaking_strain);
+  if (material.bond.yield_shear > 0) results.add("creep_rate", material.bond.creep_rate, "1/s");
   results.add("k1", pair.k1, "Pa");
   results.add("k2", pair.k2, "Pa");
   results.add("contact_stiffness", k, "N/m");

@@ -231,6 +231,7 @@ void plan(Prepared& prepared) {
   prepared.bone_speeds = bone_speeds(prepared);
   prepared.plan = plan_of(settings, prepared);
   if (is_static(settings)) prepared.load_steps = load_steps_of(settings, prepared);
+  prepared.body.material.bond.creep_rate = creep_rate_of(prepared);
   if (settings.output.region)
     with_context(settings, "output.region", [&] {
       written_particles(settings.output, prepared.body.rest, prepared.body.material.pair.r,
