@@ -149,6 +149,22 @@ void add_planes(const Body& body, Results& results) {
   results.add("lack_of_bending_stiffness", 100 * softest.lack, "%");
 }
 
+/// What the flesh of bones that stretch reaches from end to end.
+void add_stretches(const Prepared& prepared, Results& results) {
+  for (const Track& track : prepared.motion.tracks) {
+    const Bone& bone = prepared.body.skeleton.bones[track.bone];
+    const double r = prepared.body.material.pair.r;
+    const double held = std::max(0.0, 1 - 2 * stretch_lag(bone, r) / bone.length);
+    double farthest = 1;
+    for (const double factor : track.stretch.values)
+      if (std::abs(factor - 1) > std::abs(farthest - 1)) farthest = factor;
+    if (track.stretches())
+      results.add_line("stretched_bone",
+                       bone.name + ", by " + three_digits(farthest) + ": its flesh by " +
+                           three_digits(1 + held * (farthest - 1)) + ", whose ends lag behind");
+  }
+}
+
 void add_steps(const Prepared& prepared, double speed, Results& results) {
   const auto limit_of = [&](Integrator integrator) {
     return step_limit(integrator, prepared.body, load_of(prepared.body));
@@ -259,6 +275,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   add_rest(try_rest(prepared), results);
   add_modes(prepared.body, results);
   add_planes(prepared.body, results);
+  add_stretches(prepared, results);
   if (prepared.load_steps)
     add_load_steps(prepared, rate, results);
   else
