@@ -106,6 +106,7 @@ void add_material(const Material& material, Results& results) {
   results.add("bulk_modulus", material.constants().bulk_modulus(), "Pa");
   if (material.bond.breaking_strain > 0)
     results.add("breaking_strain", material.bond.breaking_strain);
+  if (material.bond.yield_shear > 0) results.add("creep_rate", material.bond.creep_rate, "1/s");
   results.add("k1", pair.k1, "Pa");
   results.add("k2", pair.k2, "Pa");
   results.add("contact_stiffness", k, "N/m");
@@ -148,6 +149,22 @@ void add_planes(const Body& body, Results& results) {
   results.add("young_modulus_along_it", softest.young_modulus, "Pa");
   results.add("planes_across", softest.planes);
   results.add("lack_of_bending_stiffness", 100 * softest.lack, "%");
+}
+
+/// What the flesh of bones that stretch reaches from end to end.
+void add_stretches(const Prepared& prepared, Results& results) {
+  for (const Track& track : prepared.motion.tracks) {
+    const Bone& bone = prepared.body.skeleton.bones[track.bone];
+    const double r = prepared.body.material.pair.r;
+    const double held = std::max(0.0, 1 - 2 * stretch_lag(bone, r) / bone.length);
+    double farthest = 1;
+    for (const double factor : track.stretch.values)
+      if (std::abs(factor - 1) > std::abs(farthest - 1)) farthest = factor;
+    if (track.stretches())
+      results.add_line("stretched_bone",
+                       bone.name + ", by " + three_digits(farthest) + ": its flesh by " +
+                           three_digits(1 + held * (farthest - 1)) + ", whose ends lag behind");
+  }
 }
 
 void add_steps(const Prepared& prepared, double speed, Results& results) {
@@ -272,6 +289,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   add_planes(prepared.body, results);
   for (const ModelLimit& limit : model_limits(prepared))
     results.add(limit.key, limit.value, limit.text);
+  add_stretches(prepared, results);
   if (prepared.load_steps)
     add_load_steps(prepared, rate, results);
   else

@@ -115,8 +115,8 @@ class Stepped {
           {one.force[0], one.force[1], one.force[2], one.moment[0], one.moment[1], one.moment[2]});
     return rows;
   }
-  /// An array of the particles, as output.arrays names it, and its components.
-  std::pair<std::vector<double>, int> measured(const std::string& name) {
+  /// An array of the particles, as output.arrays names it.
+  Column measured(const std::string& name) {
     const Busy busy(stepping_);  // other threads may run meanwhile
     const WithoutGil free;
     if (!meter_) {
@@ -128,7 +128,7 @@ class Stepped {
     if (found.size() != 1)
       throw bad_input("'" + name + "' names " + std::to_string(found.size()) + " arrays",
                       "name one, such as stress");
-    return {std::get<std::vector<double>>(std::move(found[0].values)), found[0].components};
+    return std::move(found[0]);
   }
 
   SimulationState save() const {
@@ -245,10 +245,11 @@ void bind_simulation(py::module_& module) {
       .def(
           "array",
           [](S& self, const std::string& name) {
-            auto [values, components] = self.measured(name);
-            const auto rows = static_cast<py::ssize_t>(values.size()) / components;
-            py::array flat = owned(std::move(values));
-            return components == 1 ? flat : flat.reshape({rows, py::ssize_t{components}});
+            Column found = self.measured(name);
+            const py::ssize_t components = found.components;
+            py::array flat = std::visit(
+                [](auto& values) -> py::array { return owned(std::move(values)); }, found.values);
+            return components == 1 ? flat : flat.reshape({flat.size() / components, components});
           },
           py::arg("name"))
       .def("save", &S::save)

@@ -322,6 +322,31 @@ TEST(Flow, BeginsAtTheYieldStrainOfABarThatIsPulled) {
     }
 }
 
+/// Bingham's solid: a deviator that grows by sqrt(3/2) times the rate of strain, and decays by the
+/// creep rate towards the yield shear.
+TEST(Flow, OfASteadyPullExceedsTheYieldShearByItsRateOverTheCreepRate) {
+  const Points rest = test::fcc_box(9, 9, 9, r);
+  const double yield = 1e-3, creep_rate = 120, rate = 0.01, step = 1e-4;
+  const Material material =
+      make_material(yielding(yield, creep_rate), {r, 1000 * volume_per_particle(r)});
+  Solid solid(material, rest);
+  const Mat3 pull = Vec3(-0.5, -0.5, 1).asDiagonal();
+  Points now;
+  for (int k = 1; k <= 2000; ++k) {
+    now = test::affine(rest, Mat3::Identity() + rate * step * k * pull);
+    solid.evolve(particles_at(now, r, material.mass), step);
+  }
+  const double shear = yield_shear(yield, 0.25) + std::sqrt(1.5) * rate / creep_rate;
+  const std::vector<double> lengths = solid.rest_lengths();
+  const NeighborLists near = neighbors_within(rest, rest_neighbor_range(r));
+  const std::size_t inner = innermost(rest);
+  for (std::uint32_t e = near.first[inner]; e < near.first[inner + 1]; ++e) {
+    const Vec3 n = (rest[near.neighbor[e]] - rest[inner]).normalized();
+    const double elastic = (now[near.neighbor[e]] - now[inner]).norm() / lengths[e] - 1;
+    EXPECT_NEAR(elastic, shear / std::sqrt(1.5) * n.dot(pull * n), 0.01 * shear);
+  }
+}
+
 /// Within, rest lengths change by n D n of a strain D without trace, which decays towards the yield
 /// strain at the creep rate.
 TEST(Flow, DecaysShearToTheYieldStrainAndKeepsTheVolume) {

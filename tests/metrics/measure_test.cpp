@@ -151,6 +151,42 @@ TEST(Measure, RigidMotionKeepsStrainsAndTheSkin) {
     EXPECT_NEAR(one, 1, exact);
 }
 
+int half_planes_from_the_surface(const Vec3& p) {
+  const double side = across * h / 2;
+  return static_cast<int>(
+      std::min({side - std::abs(p.x()), side - std::abs(p.y()), p.z(), along * h - p.z()}) / h);
+}
+
+TEST(Measure, TheFirstTwoHalfPlanesAreTheLayersOfABox) {
+  const RestBody body = rest_body(box_input());
+  for (std::size_t i = 0; i < body.particles(); ++i) {
+    const int depth = half_planes_from_the_surface(body.shape.points[i]);
+    EXPECT_EQ(body.layer[i], depth < 2 ? depth + 1 : 0);
+  }
+}
+
+/// A face that is pushed: its two layers do not count, wherever else the largest stress is.
+TEST(Measure, TheLargestStressIsNotThatOfLoadedLayers) {
+  const RestBody body = rest_body(box_input());
+  FrameState state = at_rest(body);
+  state.von_mises.assign(body.particles(), 1);
+  state.world_force.assign(body.particles(), Vec3::Zero());
+  double left_out = 0;
+  for (std::size_t i = 0; i < body.particles(); ++i) {
+    const double below = along * h - body.shape.points[i].z();
+    if (below < h) state.world_force[i] = {0, 0, -2};
+    if (below < 2 * h) state.von_mises[i] = 9, ++left_out;
+    if (below > 2 * h && below < 3 * h) state.von_mises[i] = 5;
+  }
+  const FrameMetrics pushed = measure(body, state);
+  EXPECT_EQ(pushed.von_mises_max, 5);
+  EXPECT_EQ(pushed.von_mises_left_out, left_out);
+  state.world_force.clear();
+  const FrameMetrics free = measure(body, state);
+  EXPECT_EQ(free.von_mises_max, 9);
+  EXPECT_EQ(free.von_mises_left_out, 0);
+}
+
 TEST(Measure, ASpinningBodyHasTheMomentaOfARigidOne) {
   RestInput input = box_input();
   input.mass = 0.25;

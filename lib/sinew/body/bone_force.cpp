@@ -118,6 +118,23 @@ std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Mate
   return springs;
 }
 
+double stretch_lag(const Bone& bone, double radius) {
+  return std::max(bone.length / 28, std::sqrt(2.0) * radius);
+}
+
+void hold_stretched(const Motion& motion, const Skeleton& skeleton, const Material& material,
+                    std::vector<BoneSprings>& springs) {
+  const double r = material.pair.r;
+  for (const Track& track : motion.tracks) {
+    if (!track.stretches()) continue;
+    const auto b = static_cast<std::size_t>(track.bone);
+    const double lag = stretch_lag(skeleton.bones[b], r);
+    const double firm = material.young_modulus() * volume_per_particle(r) / (lag * lag);
+    double& along = springs[b].form == BoneForce::anchor ? springs[b].radial : springs[b].axial;
+    if (along > 0) along = std::max(along, firm);
+  }
+}
+
 Vec3 carried_foot(const Influence& influence, const Bone& bone, const BonePose& pose) {
   return pose.frame.origin + pose.stretch * influence.foot * (pose.turn * bone.axis());
 }

@@ -12,6 +12,7 @@
 #include <sinew/core/options.h>
 #include <sinew/material/material.h>
 #include <sinew/rig/binding.h>
+#include <sinew/rig/motion.h>
 #include <sinew/rig/pose.h>
 
 namespace sinew {
@@ -36,6 +37,16 @@ std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Mate
 /// The same, multiplied by each bone's own factors.
 std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding, const Skeleton& skeleton);
+
+/// Raises the axial springs of bones whose length the motion changes (of anchors all springs), so
+/// that the flesh follows: unless they are 0. A bar of modulus E whose particles are held along it
+/// by springs k lags behind over sqrt(E V0 / k) from each end; that is at most stretch_lag() then.
+void hold_stretched(const Motion& motion, const Skeleton& skeleton, const Material& material,
+                    std::vector<BoneSprings>& springs);
+
+/// Length of flesh that stays behind at each end of a bone that stretches, m: 1/28 of the bone, and
+/// no less than a layer of particles, below which springs would shorten the step.
+double stretch_lag(const Bone& bone, double radius);
 
 /// How the twist spring's energy rises with the angle (rad) from where the bone has turned a
 /// particle to where it is: G = alpha^2 / 2 up to 120 degrees; beyond, its slope falls smoothly to

@@ -324,6 +324,12 @@ double Solid::evolve(Bonds& bonds, Branches& branches, bool repels_then,
     const Vec3 n = bond.offset / bond.distance;
     return l * (1 + crept * n.dot((flow[i] + flow[bond.neighbor]) * n) / 2);
   };
+  // While a bond yields it grows: its pull is that of the middle of the step, not of its beginning.
+  const auto growing = [&](std::size_t i, const BondNow& bond, double crept_by) {
+    if (crept_by == 0) return 0.0;
+    const Vec3 apart = particles.velocity(i) - particles.velocity(bond.neighbor);
+    return bond.spring.stiffness * crept_by * step / 2 * apart.dot(bond.offset) / bond.distance;
+  };
   const auto energy = [&](std::uint32_t e, const BondSpring& spring, double d) {
     return law_->bond_energy(material_, spring, d) + branches.energy(spring, e, d);
   };
@@ -343,6 +349,7 @@ double Solid::evolve(Bonds& bonds, Branches& branches, bool repels_then,
                           : repels_then ? law_->energy(material_, d)
                                         : 0;
       released += (energy(e, {before, k}, d) - left) / 2;
+      if (after > 0) released += growing(i, {j, offset, d, {after, k}, e}, after - before) / 2;
     }
     return released;
   });

@@ -126,6 +126,8 @@ std::vector<WrittenArray> table_of_measured(const char* series) {
        "non-affine motion of the neighbors, which F does not explain, on request"},
       {series, point, "turnover", "1", one, real, plain,
        "neighbors lost and gained, relative to those at rest, on request"},
+      {series, point, "surface_layer", "1", one, whole, plain,
+       "1 in the outermost layer at rest, 2 in the layer below, 0 inside; on request"},
       {series, point, "inverted", "1", one, whole, plain, "1 where J <= 0, on request"},
       {series, point, "pose_error", "m", one, real, plain,
        "distance from the rigid pose of its bone, on request"},

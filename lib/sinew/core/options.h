@@ -108,7 +108,7 @@ struct MaterialOptions {
   std::optional<double> breaking_strain;
   std::optional<double> fracture_energy;
   std::optional<double> yield_strain;
-  double creep_rate = 1;
+  std::optional<double> creep_rate;  ///< by default as the scene moves: see creep_rate_of()
   std::optional<std::vector<double>> relaxation_shares, relaxation_times;  ///< g_i and tau_i
   double friction = 0;
 };

@@ -186,6 +186,31 @@ Real forget_volume(const Volumes<Real>& volumes, std::ptrdiff_t i) {
   return energy;
 }
 
+/// Lets a bond creep. Returns the energy that is lost: while it yields it grows, and its pull is
+/// that of the middle of the step.
+template <class L>
+SINEW_INLINE typename L::V flow_of_bond(const Step<typename L::Real>& step, const Bond<L>& bond,
+                                        std::ptrdiff_t i, const Triple<L>& apart,
+                                        typename L::V inverse, typename L::V d) {
+  using V = typename L::V;
+  using Real = typename L::Real;
+  const std::ptrdiff_t j = i + bond.difference;
+  Symmetric<L> P;
+  for (int k = 0; k < 6; ++k)
+    P.at[k] = L::load(step.bonds.flow[k] + i) + L::load(step.bonds.flow[k] + j);
+  const V strain = product<L>(P, squares<L>(apart)) * (inverse * inverse);
+  const V by = L::keep(bond.mask, L::all(step.bonds.crept * Real(0.5)) * bond.length * strain);
+  Real* crept = step.bonds.creep + bond.place;
+  const V total = L::load(crept) + by;
+  L::store(crept, total);
+  Bond<L> after = bond;
+  after.length = L::all(bond.kind->length) + total;
+  const Triple<L> parting = load<L>(step.before.v, i) - load<L>(step.before.v, j);
+  const V growth = L::all(step.drift * Real(0.5)) * dot<L>(parting, apart) * inverse;
+  return spring_energy<L>(step.bonds, bond, d) - spring_energy<L>(step.bonds, after, d) +
+         bond.stiffness * by * growth;
+}
+
 /// Lets the bonds of a vector creep and break: both directions of a bond see the same distance to
 /// the last bit, and change alike. Adds the energy that is lost, per time, to `lost`. A pair whose
 /// bond broke repels like any other.
@@ -207,20 +232,7 @@ template <class L, Shell shell>
                               inverse_length<L, shell, true>(law, squared), L::all(0));
     const V d = squared * inverse;
     V freed = L::all(0);
-    if (step.bonds.yield > 0) {
-      const std::ptrdiff_t j = i + bond.difference;
-      Symmetric<L> P;
-      for (int k = 0; k < 6; ++k)
-        P.at[k] = L::load(step.bonds.flow[k] + i) + L::load(step.bonds.flow[k] + j);
-      const V strain = product<L>(P, squares<L>(apart)) * (inverse * inverse);
-      const V by = L::keep(bond.mask, L::all(step.bonds.crept * Real(0.5)) * bond.length * strain);
-      Real* crept = step.bonds.creep + static_cast<std::size_t>(e) * size + lane;
-      const V total = L::load(crept) + by;
-      L::store(crept, total);
-      Bond<L> after = bond;
-      after.length = L::all(bond.kind->length) + total;
-      freed = spring_energy<L>(step.bonds, bond, d) - spring_energy<L>(step.bonds, after, d);
-    }
+    if (step.bonds.yield > 0) freed = flow_of_bond<L>(step, bond, i, apart, inverse, d);
     if (step.bonds.breaking > 0) {
       const auto breaks = L::less(L::keep(bond.mask, longest<L>(step, law, bond, i) * bond.length),
                                   L::keep(bond.mask, d));

@@ -54,7 +54,7 @@ void bond(const MaterialOptions& settings, const PackingStiffness& packing, Mate
           : settings.breaking_strain.value_or(0);
   material.bond = {k, packing.second * k, breaking_strain,
                    yield_shear(settings.yield_strain.value_or(0), poisson_ratio_of(settings)),
-                   settings.creep_rate};
+                   settings.creep_rate.value_or(1)};
   if (settings.relaxation_shares && settings.relaxation_times)
     for (std::size_t b = 0; b < settings.relaxation_shares->size(); ++b)
       material.bond.branches[b] = {settings.relaxation_shares->at(b),

@@ -39,6 +39,8 @@ struct FrameState {
   std::vector<Mat3> muscle_stress = {};  ///< of each particle, Pa; empty: none, or not known
   std::vector<double> von_mises = {};    ///< of each, Pa, as the run has written it; or empty
   std::vector<std::int32_t> group = {};  ///< of each, -1: free; empty: there are none
+  Points world_force =
+      {};  ///< of pins, supports, loads, obstacles and the like on each, N; or empty
 };
 
 /// The metrics of one frame; table.cpp gives unit, meaning and formula of each.
@@ -67,6 +69,7 @@ struct FrameMetrics {
   double stretch_max = not_measured;
   double strain_50 = not_measured, strain_95 = not_measured, strain_99 = not_measured;
   double D2min_95 = not_measured, von_mises_95 = not_measured;
+  double von_mises_max = not_measured, von_mises_left_out = not_measured;
   double edge_stretch_max = not_measured, area_stretch_max = not_measured;
   double conformal_max = not_measured, symmetric_dirichlet = not_measured;
   double flipped_faces = not_measured;

@@ -123,6 +123,29 @@ void add_strain(FrameMetrics& out, const ParticleValues& particles) {
   out.von_mises_95 = percentile_of(particles.von_mises, 95);
 }
 
+/// Whether the stress of a particle is not the body's: in an outer layer that the world acts on.
+bool is_disturbed(const RestBody& rest, const Points& force, double negligible, std::size_t i) {
+  if (rest.layer[i] == 0) return false;
+  const auto acts = [&](std::size_t k) { return force[k].norm() > negligible; };
+  const auto neighbors = rest.shape.neighbors.of(i);
+  return acts(i) || std::any_of(neighbors.begin(), neighbors.end(), acts);
+}
+
+void add_largest_stress(FrameMetrics& out, const RestBody& rest, const FrameState& state,
+                        std::vector<double> stress) {
+  if (stress.empty()) return;
+  constexpr double rounding = 1e-6;  // of the largest force
+  double largest = 0;
+  for (const Vec3& force : state.world_force) largest = std::max(largest, force.norm());
+  out.von_mises_left_out = 0;
+  for (std::size_t i = 0; i < stress.size() && largest > 0; ++i)
+    if (is_disturbed(rest, state.world_force, rounding * largest, i)) {
+      stress[i] = not_measured;
+      ++out.von_mises_left_out;
+    }
+  out.von_mises_max = percentile_of(std::move(stress), 100);
+}
+
 void add_energies(FrameMetrics& out, const Energies& start, const Energies& now) {
   out.kinetic_energy = now.kinetic;
   out.pair_energy = now.pair;
@@ -240,6 +263,7 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_groups(out, state);
   add_gradients(out, frame.particles, rest.radius);
   add_strain(out, frame.particles);
+  add_largest_stress(out, rest, state, frame.particles.von_mises);
   add_surface(out, rest, state);
   add_sections(out, rest, state);
   add_momentum(out, rest, state);

@@ -252,6 +252,8 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
       columns.push_back(of_gradient<6>(name, rest, now, hencky));
     else if (name == "stress" || name == "stress_kirchhoff")
       columns.push_back(stress_column(name, rest, state));
+    else if (name == "surface_layer")
+      columns.push_back(column(std::string(name), rest.layer));
     else {
       if (values.J.empty()) values = particle_values(rest, state);
       columns.push_back(scalar(name, values));

@@ -154,6 +154,34 @@ const BondStiffness& RestBody::stiffness() const {
   return stiffness_->stiffness;
 }
 
+namespace {
+
+bool is_outermost(const RestShape& shape, double radius, std::size_t i) {
+  constexpr double equal = 1e-3, one_sided = 0.2;
+  const auto neighbors = shape.neighbors.of(i);
+  bool in_lattice = true;
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t j : neighbors) {
+    const Vec3 to = shape.points[j] - shape.points[i];
+    in_lattice = in_lattice && std::abs(to.norm() - 2 * radius) < 2 * equal * radius;
+    sum += to.normalized();
+  }
+  if (in_lattice) return neighbors.size() < max_neighbors_at_rest;
+  return sum.norm() > one_sided * static_cast<double>(neighbors.size());
+}
+
+}  // namespace
+
+std::vector<std::int32_t> surface_layers(const RestShape& shape, double radius) {
+  std::vector<std::int32_t> layer(shape.points.size(), 0);
+  for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = is_outermost(shape, radius, i) ? 1 : 0;
+  for (std::size_t i = 0; i < layer.size(); ++i)
+    if (layer[i] == 1)
+      for (const std::uint32_t j : shape.neighbors.of(i))
+        if (layer[j] == 0) layer[j] = 2;
+  return layer;
+}
+
 RestBody rest_body(RestInput input) {
   check(input);
   RestBody body;
@@ -170,6 +198,7 @@ RestBody rest_body(RestInput input) {
     input.neighbors = std::make_shared<const RestNeighbors>(
         rest_neighbors(input.positions, input.radius, with_second));
   body.shape = rest_shape(std::move(input.positions), input.neighbors->nearest);
+  body.layer = input.layer.empty() ? surface_layers(body.shape, input.radius) : input.layer;
   if (with_second) body.second = second_neighbors(*input.neighbors);
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);

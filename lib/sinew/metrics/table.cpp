@@ -109,6 +109,15 @@ constexpr std::array metric_table = {
            "95 % of mean |dx - F dX|^2 over rest neighbors", &M::D2min_95},
     Metric{"von_mises_95", "Pa", "Von Mises stress that 95 % of the particles do not exceed",
            "95 % of sqrt(3/2 dev s : dev s), s = -(1/2JV) sum f (x) r (Cauchy)", &M::von_mises_95},
+    Metric{
+        "von_mises_max", "Pa",
+        "Largest von Mises stress, the two outer layers left out where the world acts on them: "
+        "there stress is less or more than the body's by half",
+        "max of the same; not where surface_layer is 1 or 2 and force_world acts on the particle "
+        "or a neighbor",
+        &M::von_mises_max},
+    Metric{"von_mises_left_out", "", "Particles that von_mises_max leaves out", "count of them",
+           &M::von_mises_left_out},
     Metric{"edge_stretch_max", "", "Largest stretch or shrinkage of an edge of the surface",
            "max of l / l0 and l0 / l", &M::edge_stretch_max},
     Metric{"area_stretch_max", "", "Largest growth or shrinkage of a face of the surface",

@@ -143,11 +143,14 @@ double clip_length(const Motion& motion) {
   return std::max(0.0, (motion.end ? *motion.end : last_key(motion)) - motion.start);
 }
 
+bool Track::stretches() const {
+  const auto& values = stretch.values;
+  return std::any_of(values.begin(), values.end(), [](double value) { return value != 1; });
+}
+
 bool stretches(const Motion& motion) {
-  return std::any_of(motion.tracks.begin(), motion.tracks.end(), [](const Track& track) {
-    const auto& values = track.stretch.values;
-    return std::any_of(values.begin(), values.end(), [](double value) { return value != 1; });
-  });
+  return std::any_of(motion.tracks.begin(), motion.tracks.end(),
+                     [](const Track& track) { return track.stretches(); });
 }
 
 Motion played(Motion clip, const MotionOptions& options) {

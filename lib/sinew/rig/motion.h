@@ -48,6 +48,8 @@ struct Track {
   Curve<Vec3> translation;  ///< m
   Curve<double> stretch;    ///< > 0
 
+  /// Whether it changes the bone's length.
+  bool stretches() const;
   LocalMotion at(double time) const;  ///< time of the clip, s
   LocalMotion at(double time, TrackCursor& cursor) const;
 };

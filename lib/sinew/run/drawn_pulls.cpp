@@ -51,6 +51,7 @@ DrawnPulls::DrawnPulls(const RunFiles& run, std::size_t count) : run_(&run) {
   if (run.skeleton.size() > 0) {
     const Binding binding = binding_of(run, files);
     springs_ = bone_springs(run.settings.binding, run.material, binding, run.skeleton);
+    hold_stretched(motion_, run.skeleton, run.material, springs_);
     for (std::size_t i = 0; i < run.body.particles.size(); ++i) {
       const auto influences =
           binding.of(run.ids.empty() ? i : static_cast<std::size_t>(run.ids[i]));

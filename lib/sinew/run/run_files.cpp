@@ -116,8 +116,8 @@ Points positions_in(const RunFiles& run, const Dataset& data) {
 
 void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
   const auto file = run.folder.path / run.particle_rows[index].file;
-  const Dataset data =
-      read_vtu(file, {"displacement", "velocity", "broken_bonds", "von_mises", "group"});
+  const Dataset data = read_vtu(
+      file, {"displacement", "velocity", "broken_bonds", "von_mises", "group", "force_world"});
   if (data.points.size() != run.body.particles.size()) throw of_another_body(file, "particles");
   told_of(file, [&] {
     frame.positions = positions_in(run, data);
@@ -132,6 +132,8 @@ void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
     if (find(data.point_columns, "group")) frame.group = integers(data.point_columns, "group");
     if (find(data.point_columns, "von_mises"))
       frame.von_mises = numbers(data.point_columns, "von_mises");
+    if (find(data.point_columns, "force_world"))
+      frame.world_force = vectors(data.point_columns, "force_world");
   });
 }
 
@@ -361,6 +363,20 @@ RestInput measured_body(const Material& material, const Skeleton& skeleton) {
   return input;
 }
 
+namespace {
+
+/// The layers of the particles that frames contain, in the whole body.
+std::vector<std::int32_t> layers_of_part(const RunFiles& run) {
+  const Points rest = positions_of(read_body(run.folder.body()).particles);
+  const double r = run.material.pair.r;
+  const auto all = surface_layers(rest_shape(rest, rest_neighbor_range(r)), r);
+  std::vector<std::int32_t> layer;
+  for (const std::int32_t id : run.ids) layer.push_back(all[static_cast<std::size_t>(id)]);
+  return layer;
+}
+
+}  // namespace
+
 RestInput measured_body(const RunFiles& run) {
   RestInput input = measured_body(run.material, run.skeleton);
   input.positions = positions_of(run.body.particles);
@@ -375,6 +391,7 @@ RestInput measured_body(const RunFiles& run) {
   if (run.body.volume_stiffness) input.law.volume_stiffness_of = *run.body.volume_stiffness;
   if (run.body.density) input.density = *run.body.density;
   input.law.has_muscles = !run.settings.world.muscles.empty();
+  if (!run.ids.empty()) input.layer = layers_of_part(run);
   if (!run.ids.empty()) input.law = {};  // of what is not there, forces act as well
   input.surface = run.surface;
   input.bone.assign(run.body.bone->begin(), run.body.bone->end());
@@ -394,7 +411,8 @@ FrameState measured_frame(RunFrame frame) {
           {},
           {},
           std::move(frame.von_mises),
-          std::move(frame.group)};
+          std::move(frame.group),
+          std::move(frame.world_force)};
 }
 
 }  // namespace sinew

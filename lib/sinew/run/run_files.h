@@ -65,6 +65,7 @@ struct RunFrame {
   std::vector<std::int32_t> broken_bonds;  ///< of each particle; empty: it has no bonds
   std::vector<double> von_mises;           ///< Pa; empty: not written
   std::vector<std::int32_t> group;         ///< of each particle, -1: free; empty: there are none
+  Points world_force;                      ///< force_world, N; empty: not written
 };
 
 /// Throws bad input, naming the file, where it is damaged or of another body.

@@ -214,6 +214,8 @@ void bind(const SceneFiles& files, const ForceLaw* law, Prepared& prepared) {
   prepared.obstacles = std::move(around.obstacles);
   prepared.probes = std::move(around.probes);
   prepared.motion = std::move(rig.motion);
+  hold_stretched(prepared.motion, prepared.body.skeleton, prepared.body.material,
+                 prepared.body.springs);
   prepared.file_warnings = settings.warnings;
   for (const std::string& warning : warnings_of(files)) prepared.file_warnings.push_back(warning);
   prepared.joint_zone = settings.binding.joint_zone;
@@ -229,6 +231,7 @@ void plan(Prepared& prepared) {
   const Settings& settings = prepared.settings;
   prepared.steps = steps_of(settings, prepared.body);
   prepared.bone_speeds = bone_speeds(prepared);
+  prepared.body.material.bond.creep_rate = creep_rate_of(prepared);
   prepared.plan = plan_of(settings, prepared);
   if (is_static(settings)) prepared.load_steps = load_steps_of(settings, prepared);
   if (settings.output.region)

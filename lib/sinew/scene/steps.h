@@ -64,6 +64,15 @@ double farthest_carried(const Prepared& prepared);
 /// Plans a scene of the static method: its frames are moments at which the body is at rest.
 LoadSteps load_steps_of(const Settings& settings, const Prepared& prepared);
 
+/// An upper bound of the rate at which the scene's bones, supports, obstacles and loads strain the
+/// body, 1/s: their fastest turn, and their largest speed over the body's smallest width; loads
+/// give the speed that they reach over that width. Reads frames, bone_speeds and the body.
+double strain_rate(const Prepared& prepared);
+
+/// The rate of material.creep_rate, 1/s; auto: so fast that at strain_rate() the stress of a bar
+/// that is pulled exceeds the yield stress by 2 %, and at once in the static method.
+double creep_rate_of(const Prepared& prepared);
+
 // The stepper that a run uses.
 
 struct StepperChoice {

@@ -97,8 +97,13 @@ std::vector<Field<KeyDefinition>> make_keys() {
                "twist about the bone itself, of any size, after the rotation"),
       field<K>("", "translation", SINEW_AT(K, translation), "m",
                "displacement of the head from its position on the parent"),
-      field<K>("", "stretch", SINEW_AT(K, stretch), "",
-               "factor on the bone's length; descendants move with the bone", positive),
+      field<K>(
+          "", "stretch", SINEW_AT(K, stretch), "",
+          "factor on the bone's length; descendants move with the bone; particles follow within 7 "
+          "% of "
+          "the change, unless the bone is shorter than 40 radii (check says what they reach): its "
+          "springs along it are raised for that, unless they are 0",
+          positive),
   };
 }
 

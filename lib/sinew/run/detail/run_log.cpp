@@ -32,15 +32,17 @@ Json bones_of(const Skeleton& skeleton) {
 }
 
 Json material_of(const Material& material) {
-  return {{"k1", material.pair.k1},
-          {"k2", material.pair.k2},
-          {"a", material.pair.a},
-          {"b", material.pair.b},
-          {"lambda", material.pair.lambda()},
-          {"contact_stiffness", material.pair.contact_stiffness()},
-          {"tension_stiffness", material.pair.tension_stiffness()},
-          {"damping", material.damping},
-          {"young_modulus", material.young_modulus()}};
+  Json values{{"k1", material.pair.k1},
+              {"k2", material.pair.k2},
+              {"a", material.pair.a},
+              {"b", material.pair.b},
+              {"lambda", material.pair.lambda()},
+              {"contact_stiffness", material.pair.contact_stiffness()},
+              {"tension_stiffness", material.pair.tension_stiffness()},
+              {"damping", material.damping},
+              {"young_modulus", material.young_modulus()}};
+  if (material.bond.yield_shear > 0) values["creep_rate"] = material.bond.creep_rate;
+  return values;
 }
 
 /// The body's own, where something of it is left, and those of its parts.
