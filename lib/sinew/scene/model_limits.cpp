@@ -52,9 +52,9 @@ double grip_factor(const Body& body) {
       const auto along = static_cast<std::size_t>(axis);
       const bool thin =
           std::max(a.sizes()[axis], b.sizes()[axis]) < layer;  // others end in a layer
-      if (!thin || !supports[k].holds[along] || !supports[m].holds[along] || apart < layer)
+      if (!thin || !supports[k].holds[along] || !supports[m].holds[along] || apart < 2 * layer)
         continue;
-      largest = std::max(largest, 1 + layer / apart);
+      largest = std::max(largest, (apart + layer) / (apart - layer));
     }
   return largest;
 }
@@ -91,8 +91,8 @@ std::vector<ModelLimit> model_limits(const Prepared& prepared) {
                       "at least, between bodies of particles, whose layers interlock"});
   if (const double factor = grip_factor(body); factor > 1)
     limits.push_back({"grip_factor", factor,
-                      "times too stiff between supports that hold a layer each, which does not "
-                      "stretch"});
+                      "times too stiff between supports that hold a layer each: a layer at each "
+                      "end does not stretch"});
   return limits;
 }
 

@@ -22,8 +22,10 @@ struct ModelLimit {
 /// kept and pressed on; friction_floor where bodies may touch; grip_factor where two supports pull.
 std::vector<ModelLimit> model_limits(const Prepared& prepared);
 
-/// How much too stiff a bar is between the layers that two supports hold, which do not stretch: N /
-/// (N - 1) for N layers; the largest of all pairs, 1 without any.
+/// How much too stiff a bar is between the layers that two supports hold, which stretch neither
+/// outward nor, as surfaces are as stiff as their share of the mesh, inward: N / (N - 2) for N
+/// layers; the largest of all pairs, 1 without any. Measured by the strain in the middle of bars of
+/// 13, 25 and 49 layers: 1.169, 1.086, 1.042.
 double grip_factor(const Body& body);
 
 /// How much more than its bulk modulus says a cube of so many layers is compressed by a pressure

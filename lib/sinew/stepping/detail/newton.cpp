@@ -29,9 +29,23 @@ std::string why_not_in(const World& world) {
   return "";
 }
 
-/// Layers of particles, each bonded to the one before, from one end of each piece of the body on.
-std::vector<std::size_t> layers_of(const NeighborLists& near) {
-  std::vector<std::size_t> sizes;
+/// Particles that are as many bonds from one end of a piece of the body.
+struct Layer {
+  std::size_t size = 0;
+  Vec3 middle = Vec3::Zero();  ///< m
+  bool first = false;          ///< of its piece
+};
+
+Layer layer_of(const std::vector<std::uint32_t>& particles, const Points& rest) {
+  Layer layer{particles.size()};
+  for (const std::uint32_t i : particles) layer.middle += rest[i];
+  layer.middle /= static_cast<double>(particles.size());
+  return layer;
+}
+
+/// The layers of all pieces, from one end of each on.
+std::vector<Layer> layers_of(const NeighborLists& near, const Points& rest) {
+  std::vector<Layer> all;
   std::vector<bool> seen(near.size(), false);
   const auto layers_from = [&](std::uint32_t start, std::vector<bool>& met) {
     std::vector<std::vector<std::uint32_t>> layers = {{start}};
@@ -49,17 +63,30 @@ std::vector<std::size_t> layers_of(const NeighborLists& near) {
     if (seen[i]) continue;
     std::vector<bool> met = seen;
     const std::uint32_t end = layers_from(i, met).back().front();
-    for (const auto& layer : layers_from(end, seen)) sizes.push_back(layer.size());
+    const std::size_t begin = all.size();
+    for (const auto& particles : layers_from(end, seen)) all.push_back(layer_of(particles, rest));
+    all[begin].first = true;
   }
-  return sizes;
+  return all;
+}
+
+/// Along the middles of the layers, m; of the longest piece.
+double length_of(const std::vector<Layer>& layers) {
+  double longest = 0, length = 0;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    length = layers[k].first ? 0 : length + (layers[k].middle - layers[k - 1].middle).norm();
+    longest = std::max(longest, length);
+  }
+  return longest;
 }
 
 /// Nonzeros of a factor whose unknowns are ordered layer by layer.
-double banded_nonzeros(const std::vector<std::size_t>& layers, bool keeps_volume) {
+double banded_nonzeros(const std::vector<Layer>& layers, bool keeps_volume) {
   double all = 0, before = 0;
-  for (const std::size_t size : layers) {
-    const double width = 3.0 * static_cast<double>(size) * (keeps_volume ? 2 : 1);
-    all += 3.0 * static_cast<double>(size) * (width / 2 + before);
+  for (const Layer& layer : layers) {
+    const double unknowns = 3.0 * static_cast<double>(layer.size);
+    const double width = unknowns * (keeps_volume ? 2 : 1);
+    all += unknowns * (width / 2 + before);
     before = width;
   }
   return all;
@@ -78,11 +105,13 @@ std::string why_not_newton(const Body& body, const Stepping& stepping) {
 }
 
 StaticCost relaxation_cost(const Body& body, double residual) {
-  // Measured: bars of 7 to 11 layers across and 5 to 25 times as long, under a force at an end.
-  // The slowest mode of a bar of l layers, each of p particles, has a period of l^2 / sqrt(p).
+  // Measured: bars of 5 to 11 layers across and 5 to 30 times as long, under a force at an end. The
+  // slowest mode of a bar of l pairs of layers, each of p particles, has a period of l^2 / sqrt(p).
   constexpr double slowness = 8, particles_per_second = 20e6;
   const auto count = static_cast<double>(body.rest.size());
-  const auto length = static_cast<double>(layers_of(neighbors_of(body)->all()).size());
+  const double pair_of_layers = 2 * half_plane_spacing(body.material.pair.r);
+  const double length =
+      1 + length_of(layers_of(neighbors_of(body)->all(), body.rest)) / pair_of_layers;
   StaticCost cost;
   cost.iterations = slowness * length * length / std::sqrt(count / length) * -std::log(residual);
   cost.relaxation = cost.iterations * count / particles_per_second;
@@ -93,7 +122,7 @@ StaticCost with_factor(StaticCost cost, const Body& body) {
   constexpr double solutions = 6, products_per_second = 0.7e9;
   constexpr double too_large = 4 * max_factor;  // for an analysis; the band is an upper bound
   const SharedNeighbors near = neighbors_of(body);
-  cost.nonzeros = banded_nonzeros(layers_of(near->all()), keeps_volume(body));
+  cost.nonzeros = banded_nonzeros(layers_of(near->all(), body.rest), keeps_volume(body));
   if (cost.nonzeros > too_large) return cost;
   const Particles particles = particles_at(body.rest, body.material.pair.r, body.material.mass);
   const Newton newton(body, *near, particles, Vec3::Zero());
