@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // A correction may turn or strain any pair by so much: by more, the tangent says nothing.
-constexpr double max_gradient = 0.3;
+constexpr double max_correction = 0.3;
 
 std::string why_not_in(const World& world) {
   for (const Obstacle& one : world.obstacles)
@@ -159,7 +159,7 @@ std::optional<Newton::Solution> Newton::predict(Stepper& stepper, const TimedPos
 
 std::optional<Newton::Solution> Newton::correct(Stepper& stepper, const TimedPose& now) {
   const Tangent::Matrix matrix = tangent_.at(stepper, now, read(stepper, now));
-  return solve(matrix, tangent_.forces(stepper, now, gravity_), max_gradient);
+  return solve(matrix, tangent_.forces(stepper, now, gravity_), max_correction);
 }
 
 std::optional<Newton::Solution> Newton::solve(const Tangent::Matrix& matrix,
