@@ -210,7 +210,7 @@ class DrawnFraction {
 /// Counts pictures of one view, frames of the movie too.
 std::size_t pictures_planned(const Options& options, const DrawnRun& run) {
   const std::size_t moments =
-      options.times.empty() ? run.key_frames().size() : options.times.size();
+      options.times.empty() ? run.key_moments().size() : options.times.size();
   return (options.no_pictures ? 0 : moments) + (options.no_movie ? 0 : run.files().frames());
 }
 

@@ -63,7 +63,7 @@ TEST(Charts, ShowMetricsOfTheTableAtMostSixAndEachPlanSome) {
   for (const ChartPlan& plan : chart_plans()) {
     EXPECT_FALSE(plan.metrics.empty()) << plan.title;
     EXPECT_LE(plan.metrics.size(), 6u) << plan.title;
-    for (const std::string_view name : plan.metrics)
+    for (const auto& [name, words] : plan.metrics)
       EXPECT_LT(metric_index(name), metrics_table().size()) << name;
   }
 }
@@ -76,10 +76,11 @@ TEST(Charts, ShowRadiiFractionsAndChangesAsTheySay) {
   frames[1].pair_energy = -5;
   frames[1].pose_error_rms = 3 * r;
   frames[1].broken_neighbors = 0.25;
-  const auto last = [&](const std::string& metric, std::string_view unit) {
+  const auto last = [&](std::string_view metric, std::string_view unit) {
     for (const ChartPlan& plan : chart_plans())
-      for (const Line& line : planned_chart(plan, frames, r).lines)
-        if (line.name == metric) return plan.unit == unit ? line.values.back() : not_measured;
+      for (std::size_t k = 0; k < plan.metrics.size(); ++k)
+        if (plan.metrics[k].name == metric && plan.unit == unit)
+          return planned_chart(plan, frames, r).lines[k].values.back();
     return not_measured;
   };
   EXPECT_EQ(last("pair_energy", "J"), 2);
@@ -89,7 +90,19 @@ TEST(Charts, ShowRadiiFractionsAndChangesAsTheySay) {
 }
 
 Chart of_lines(std::vector<Line> lines, Drawn drawn = Drawn::always) {
-  return {"title", "note", "m", {0, 1}, drawn, std::move(lines)};
+  return {"title", "note", "m", {0, 1}, 0, drawn, std::move(lines)};
+}
+
+TEST(Charts, SaySomethingWhereTheyChangeByMoreThanATrifle) {
+  Chart chart = of_lines({{"one", {2, 2, 2}}});
+  EXPECT_FALSE(says_something(chart));
+  chart.lines.push_back({"other", {nan, 0, 0.4}});
+  EXPECT_TRUE(says_something(chart));
+  chart.span = 10;
+  EXPECT_FALSE(says_something(chart));  // less than half
+  chart.lines[1].values[2] = 0.5;
+  EXPECT_TRUE(says_something(chart));
+  EXPECT_FALSE(says_something(of_lines({{"rounding", {1, 1 + 1e-9, 1}}})));
 }
 
 TEST(Charts, LeaveOutLinesThatWereNeverMeasuredAndChartsWithoutAny) {

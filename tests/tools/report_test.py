@@ -49,7 +49,9 @@ async function visit() {
   keep("start");
   if (states.start.webgl) {
     const last = document.getElementById("time").max;
-    set("time", Math.floor(last / 2), "input"); keep("middle");
+    set("time", (states.start.snapshot + Math.floor(last / 2)) % (Number(last) + 1), "input"); keep("middle");
+    if (document.querySelector('#field option[value="-1"]')) set("field", "-1", "change");
+    keep("named");
     set("field", "0", "change"); keep("colored");
     set("cut", true, "change"); keep("cut"); set("cut", false, "change");
     document.querySelector("#worst button").click(); keep("worst");
@@ -131,7 +133,12 @@ class Report(unittest.TestCase):
             values = [y for line in chart["lines"] for _, y in line["points"] if y is not None]
             values += chart["baselines"]
             self.assertTrue(low <= min(values) and max(values) <= high, chart["title"])
-            self.assertLessEqual(high - low, max(4 * (max(values) - min(values)), 2), chart["title"])
+            self.assertLessEqual(high - low, max(4 * (max(values) - min(values)), 2, 1.5 * chart["span"]), chart["title"])
+
+    def test_trifles_are_folded_away_and_come_last(self):
+        folded = [chart["folded"] for chart in data_of((RUN / "report.html").read_text())["charts"]]
+        self.assertEqual(folded, sorted(folded))
+        self.assertFalse(folded[0])
 
     def test_ticks_can_be_told_apart_and_have_as_many_decimals(self):
         for ticks in self.states["start"]["ticks"]:
@@ -191,20 +198,27 @@ class Report(unittest.TestCase):
         self.assertNotEqual(start["places"], middle["places"])
 
     def test_the_color_changes_and_the_places_do_not(self):
-        middle, colored = self.states["middle"], self.states["colored"]
+        middle, colored = self.states["named"], self.states["colored"]
         self.assertNotEqual(middle["tints"], colored["tints"])
         self.assertEqual(middle["places"], colored["places"])
 
     def test_particles_have_the_color_of_their_bones_name(self):
         packed = json.loads(PLAYBACK.search((RUN / "report.html").read_text())[0])
         bones = [bone for bone, in struct.iter_unpack("<h", base64.b64decode(packed["bone"]))]
-        tints, colors = self.states["start"]["tints"], {}
-        if self.states["start"]["field"] is None:
+        tints, colors = self.states["named"]["tints"], {}
+        if self.states["named"]["field"] is None:
             for i, bone in enumerate(bones):
                 name = packed["boneNames"][bone] if bone >= 0 else None
                 colors.setdefault(name, set()).add(tuple(tints[3 * i:3 * i + 3]))
         self.assertTrue(all(len(some) == 1 for some in colors.values()), colors)
-        self.assertEqual(self.states["start"]["legend"], list(dict.fromkeys(packed["boneNames"])))
+        self.assertEqual(self.states["named"]["legend"], list(dict.fromkeys(packed["boneNames"])))
+
+    def test_the_motion_plays_by_itself_until_the_reader_looks_for_a_moment(self):
+        start = self.states["start"]
+        self.assertEqual(start["field"], "strain")
+        self.assertTrue(start["playing"])
+        self.assertGreater(start["triangles"], 0)  # the skin
+        self.assertFalse(self.states["middle"]["playing"])
 
     def test_cutting_takes_about_half_away(self):
         xs = self.states["cut"]["places"][::3]

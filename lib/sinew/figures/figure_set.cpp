@@ -2,6 +2,9 @@
 #include <sinew/figures/figure_set.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
 
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
@@ -28,6 +31,42 @@ void check_times(const std::vector<double>& times, const RunFiles& run) {
       throw bad_input("there is no picture at " + number_text(time) + " s",
                       "give times from " + number_text(first) + " to " + number_text(last) +
                           " s, as --times " + number_text(first) + ',' + number_text(last));
+}
+
+struct Label {
+  std::string_view array, words;
+};
+constexpr std::array<Label, 10> labels = {{{"strain", "equivalent strain"},
+                                           {"strain_eq", "equivalent strain"},
+                                           {"von_mises", "von Mises stress"},
+                                           {"stretch", "largest stretch"},
+                                           {"J", "change of volume J"},
+                                           {"D2min", "non-affine motion D2min"},
+                                           {"force_pair", "force of neighbors"},
+                                           {"force_damping", "force of damping"},
+                                           {"force_bone", "force of bones"},
+                                           {"pose_error", "distance from the bones' pose"}}};
+
+/// What an array shows, in words.
+std::string label_of(const std::string& array) {
+  for (const Label& label : labels)
+    if (label.array == array) return std::string(label.words);
+  return array;
+}
+
+std::string grouped_by_thousands(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, ",");
+  return digits;
+}
+
+/// What a run is of, as the title of its pictures.
+std::string subject_of(const DrawnRun& run) {
+  const Particles& particles = run.files().body.particles;
+  const bool paper = run.files().settings.material.model == MaterialModel::paper;
+  return run.name() + ":  " + grouped_by_thousands(particles.size()) + " particles of radius " +
+         three_digits(1e3 * particles.radius) + " mm, " +
+         (paper ? "the paper's material" : "bonded");
 }
 
 }  // namespace
@@ -67,13 +106,13 @@ ColorScale FigureSet::scale() const {
     scale.colors.assign(palette::pulls.begin(), palette::pulls.end());
     return scale;
   }
-  ColorScale scale{drawn(0).name(), drawn(0).unit(), drawn(0).range.low, drawn(0).range.high,
-                   options_.colors};
+  ColorScale scale{label_of(drawn(0).name()), drawn(0).unit(), drawn(0).range.low,
+                   drawn(0).range.high, options_.colors};
   for (std::size_t run = 1; run < runs_.size(); ++run) {
     scale.low = std::min(scale.low, drawn(run).range.low);
     scale.high = std::max(scale.high, drawn(run).range.high);
   }
-  if (scale.name == "material") {
+  if (drawn(0).name() == "material") {
     scale.names = names_of_materials(runs_.front()->files());
     scale.low = 0, scale.high = std::max(1.0, static_cast<double>(scale.names.size()) - 1);
   }
@@ -83,11 +122,11 @@ ColorScale FigureSet::scale() const {
 }
 
 /// Frames of the first run.
-std::vector<std::size_t> FigureSet::moments() const {
-  if (options_.times.empty()) return runs_.front()->key_frames();
-  std::vector<std::size_t> frames;
-  for (const double time : options_.times) frames.push_back(runs_.front()->frame_at(time));
-  return frames;
+std::vector<KeyMoment> FigureSet::moments() const {
+  if (options_.times.empty()) return runs_.front()->key_moments();
+  std::vector<KeyMoment> asked;
+  for (const double time : options_.times) asked.push_back({runs_.front()->frame_at(time), ""});
+  return asked;
 }
 
 /// Takes a snapshot of each run, at the time of the first one's frame.
@@ -136,19 +175,21 @@ std::vector<Panel> FigureSet::panels(const std::vector<Snapshot>& snapshots) {
 }
 
 /// The box around these moments of all runs.
-Box FigureSet::frame_of(const std::vector<std::size_t>& frames) const {
+Box FigureSet::frame_of(const std::vector<KeyMoment>& moments) const {
   Box box;
-  for (const std::size_t frame : frames)
-    for (const Snapshot& snapshot : snapshots(frame)) box.extend(seen(options_.view, snapshot));
+  for (const KeyMoment& moment : moments)
+    for (const Snapshot& snapshot : snapshots(moment.frame))
+      box.extend(seen(options_.view, snapshot));
   return box;
 }
 
 int FigureSet::pictures() {
-  const std::vector<std::size_t> frames = moments();
+  const std::vector<KeyMoment> chosen = moments();
   FigureOptions options = figure_options(Finish::fine);
-  options.camera.frame = frame_of(frames);
-  for (const std::size_t frame : frames) {
-    const std::vector<Snapshot> moment = snapshots(frame);
+  options.camera.frame = frame_of(chosen);
+  for (const auto& [frame, what] : chosen) {
+    std::vector<Snapshot> moment = snapshots(frame);
+    if (!what.empty()) moment.front().caption = what + ",  " + moment.front().caption;
     const auto on = [&](const Paper& paper) {
       options.paper = paper;
       return figure(panels(moment), options);
@@ -156,19 +197,22 @@ int FigureSet::pictures() {
     write_png(drawn_on(options_.backdrop, on), place(name() + '_' + numbered(frame) + ".png"));
     options_.drawn();
   }
-  return static_cast<int>(frames.size());
+  return static_cast<int>(chosen.size());
 }
 
 void FigureSet::sheet() {
   std::vector<std::vector<Snapshot>> over_time(runs_.size());
-  for (const std::size_t frame : moments()) {
+  for (const auto& [frame, what] : moments()) {
     std::vector<Snapshot> moment = snapshots(frame);
+    moment.front().caption += '\n' + what;
     for (std::size_t run = 0; run < runs_.size(); ++run)
       over_time[run].push_back(std::move(moment[run]));
   }
   SheetOptions sheet;
   sheet.view = options_.view;
   sheet.axes = options_.axes;
+  sheet.rulers = true;
+  if (runs_.size() == 1) sheet.title = subject_of(*runs_.front());
   const auto write = [&](const std::vector<SheetRow>& rows, const std::string& file) {
     const auto on = [&](const Paper& paper) {
       sheet.paper = paper;

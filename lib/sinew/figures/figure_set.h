@@ -59,9 +59,9 @@ class FigureSet {
   const DrawnView& drawn(std::size_t run) const { return runs_[run]->view_presets()[preset_]; }
   std::string arrow_scale(std::size_t run) const;
   ColorScale scale() const;
-  std::vector<std::size_t> moments() const;
+  std::vector<KeyMoment> moments() const;
   std::vector<Snapshot> snapshots(std::size_t frame) const;
-  Box frame_of(const std::vector<std::size_t>& frames) const;
+  Box frame_of(const std::vector<KeyMoment>& moments) const;
   Camera movie_camera(std::size_t frame) const;
   std::vector<Panel> panels(const std::vector<Snapshot>& snapshots);
   FigureOptions figure_options(Finish finish) const;

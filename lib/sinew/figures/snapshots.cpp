@@ -142,8 +142,6 @@ namespace {
 constexpr std::size_t max_arrows = 900;  // more would hide each other
 constexpr double longest_arrow = 0.25;   // of the body's longest side
 constexpr double shortest_arrow = 0.1;   // of the longest: shorter ones are dots
-constexpr double min_turn = 0.01;        // rad: below it the bones do not move
-constexpr std::size_t moments_without_turn = 5;
 
 double largest_turn(const RunFiles& run, const RunFrame& frame) {
   double most = 0;
@@ -152,15 +150,6 @@ double largest_turn(const RunFiles& run, const RunFrame& frame) {
     most = std::max(most, Eigen::AngleAxisd(turn).angle());
   }
   return most;
-}
-
-/// Evenly over all frames, including the first and the last.
-std::vector<std::size_t> spread_over(std::size_t frames) {
-  const std::size_t count = std::min(frames, moments_without_turn);
-  std::vector<std::size_t> chosen;
-  for (std::size_t k = 0; k < count; ++k)
-    chosen.push_back(count == 1 ? 0 : k * (frames - 1) / (count - 1));
-  return chosen;
 }
 
 std::vector<std::size_t> traced_places(const RunFiles& run, const std::vector<int>& ids) {
@@ -178,6 +167,25 @@ std::vector<std::size_t> traced_places(const RunFiles& run, const std::vector<in
     places.push_back(static_cast<std::size_t>(place));
   }
   return places;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// Whether the run has written that array of the particles.
+bool has_written(const RunFiles& run, const std::string& name) {
+  const auto file = run.folder.path / run.particle_rows.front().file;
+  return find(read_vtu(file, {name.c_str()}).point_columns, name) != nullptr;
+}
+
+/// What is shown where nobody asked for an array: strain as the run has written it. Of bodies for
+/// which it has not, since they are large, the displacement.
+std::string array_of(const ViewPreset& preset, const RunFiles& run) {
+  if (preset.array != deformation) return std::string(preset.array);
+  return has_written(run, "strain_eq") ? "strain_eq" : "displacement";
 }
 
 void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool first) {
@@ -200,7 +208,7 @@ DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
 }
 
 DrawnView DrawnRun::applied(const ViewPreset& preset) const {
-  const std::string array = options_.array.empty() ? std::string(preset.array) : options_.array;
+  const std::string array = options_.array.empty() ? array_of(preset, run_) : options_.array;
   if (preset.view == View::lines)
     return {preset, DrawnValues(run_, "displacement"), DrawnBonds(run_, array), {}};
   if (preset.view != View::binding) return {preset, DrawnValues(run_, array), {}, {}};
@@ -257,6 +265,7 @@ void DrawnRun::read_overview() {
   for (std::size_t i = 0; i < run_.frames(); ++i) {
     RunFrame frame = frames.next();
     overview_.angle.push_back(largest_turn(run_, frame));
+    overview_.shift.push_back(root_mean_square(frame.displacement));
     for (DrawnView& drawn : views_) widen(drawn.range, range_in(i, frame, drawn), i == 0);
     for (std::size_t k = 0; k < traced.size(); ++k)
       overview_.paths[k].push_back(frame.positions[traced[k]]);
@@ -290,18 +299,8 @@ std::size_t DrawnRun::frame_at(double time) const {
       std::min_element(rows.begin(), rows.begin() + run_.frames(), nearer) - rows.begin());
 }
 
-std::vector<std::size_t> DrawnRun::key_frames() const {
-  const std::vector<double>& angle = overview_.angle;
-  const double most = *std::max_element(angle.begin(), angle.end());
-  if (most < min_turn) return spread_over(angle.size());
-  std::size_t half = 0, farthest = 0;
-  while (angle[half] < most / 2) ++half;
-  for (std::size_t i = 0; i < angle.size(); ++i)
-    if (angle[i] >= most * (1 - 1e-5)) farthest = i;
-  std::vector<std::size_t> frames{0, half, farthest, angle.size() - 1};
-  std::sort(frames.begin(), frames.end());
-  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  return frames;
+std::vector<KeyMoment> DrawnRun::key_moments() const {
+  return sinew::key_moments(overview_, run_.body.particles.radius);
 }
 
 /// The cut is vertical, across the viewer's direction at rest, and deforms with the body, so that

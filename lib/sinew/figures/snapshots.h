@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <sinew/figures/key_moments.h>
 #include <sinew/figures/view_presets.h>
 #include <sinew/metrics/rest_body.h>
 #include <sinew/render/snapshot.h>
@@ -78,6 +79,7 @@ struct DrawnView {
 
 struct RunOverview {
   std::vector<double> angle;  ///< per frame: largest turn of a bone since rest, rad
+  std::vector<double> shift;  ///< per frame: root mean square of the particles' displacements, m
   Box frame;                  ///< around the body at all times, in the camera's directions
   Cylinder around;            ///< the upright axis through its middle at rest, at all times
   Box obstacle_space = {};    ///< around it, m
@@ -108,9 +110,7 @@ class DrawnRun {
 
   /// The frame nearest in time.
   std::size_t frame_at(double time) const;
-  /// Four frames that represent the motion: rest, half the largest angle, the largest angle (the
-  /// last such frame), and the end.
-  std::vector<std::size_t> key_frames() const;
+  std::vector<KeyMoment> key_moments() const;
 
   Snapshot snapshot(std::size_t index, const DrawnView& drawn) const;
 

@@ -13,10 +13,10 @@ namespace sinew {
 namespace {
 
 constexpr std::array<ViewPreset, 9> all_view_presets = {{
-    {"body", View::both, false, "displacement", "particles within the skin's edges, and the bones"},
+    {"body", View::both, false, deformation, "particles within the skin's edges, and the bones"},
     {"surface", View::surface, false, "displacement", "the skin, the bones shining through"},
-    {"particles", View::particles, false, "displacement", "spheres of their true size"},
-    {"section", View::both, true, "displacement", "the body cut open along its middle"},
+    {"particles", View::particles, false, deformation, "spheres of their true size"},
+    {"section", View::both, true, deformation, "the body cut open along its middle"},
     {"strain", View::particles, false, "strain", "particles by their equivalent strain"},
     {"forces", View::arrows, false, "force_pair", "arrows of a force within the pale skin"},
     {"bonds", View::lines, false, "strain", "the bonds as lines within the pale skin"},

@@ -14,6 +14,9 @@
 
 namespace sinew {
 
+/// Stands in a preset for the array that shows deformation, as far as a run has written one.
+inline constexpr std::string_view deformation = "deformation";
+
 struct ViewPreset {
   std::string_view name;
   View view = View::both;

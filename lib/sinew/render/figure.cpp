@@ -2,9 +2,12 @@
 #include <sinew/render/figure.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include <sinew/core/error.h>
+#include <sinew/core/text.h>
 #include <sinew/render/detail/text.h>
 #include <sinew/render/detail/tripod.h>
 
@@ -82,7 +85,15 @@ struct SheetLayout {
   std::vector<Column> columns;
   std::vector<int> rows;  ///< top of the panels of each
   int width = 0, height = 0, margin = 0, row_height = 0, captions = 0, bar = 0;
+  double scale = 0;  ///< pixels per meter
   TextStyle text;
+
+  /// A smaller one for the foot.
+  TextStyle small() const {
+    TextStyle words = text;
+    words.size = std::max(10, words.size * 4 / 5);
+    return words;
+  }
 };
 
 std::vector<Column> columns_of(const std::vector<SheetRow>& rows, const Mat3& view) {
@@ -121,6 +132,7 @@ void lay_columns(SheetLayout& layout, const SheetOptions& options) {
   const double space = options.width - (count + 1) * gap;
   const double high = layout.columns.front().frame.sizes().y();
   const double scale = std::min(space / summed_width(layout.columns), options.row_height / high);
+  layout.scale = scale;
   layout.row_height = std::max(16, static_cast<int>(std::lround(scale * high)));
   layout.width = gap;
   for (Column& column : layout.columns) {
@@ -142,7 +154,7 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   layout.text.size = std::max(11, options.width / 64);
   layout.text.color = options.paper.ink;
   lay_columns(layout, options);
-  int y = 0;
+  int y = options.title.empty() ? 0 : layout.margin / 2 + line_height(layout.text);
   for (const SheetRow& row : rows) {
     y += layout.margin + (row.title.empty() ? 0 : line_height(layout.text));
     layout.rows.push_back(y);
@@ -151,7 +163,7 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   layout.captions = y + layout.margin / 2;
   layout.bar = layout.captions + caption_lines(*rows.front().snapshots) * line_height(layout.text) +
                layout.margin / 2;
-  const bool has_foot = options.axes || show_values(rows);
+  const bool has_foot = options.axes || options.rulers || show_values(rows);
   layout.height = layout.bar + (has_foot ? color_bar_height(layout.text) + layout.margin / 2 : 0);
   return layout;
 }
@@ -181,6 +193,68 @@ void write_captions(Image& sheet, const std::vector<Snapshot>& snapshots,
                layout.captions, words);
 }
 
+/// The longest of 1, 2 and 5 times a power of ten, m, that is no longer than `most`.
+double round_length(double most) {
+  const double power = std::pow(10, std::floor(std::log10(most)));
+  for (const double times : {5.0, 2.0})
+    if (times * power <= most) return times * power;
+  return power;
+}
+
+std::string length_text(double meters) {
+  if (meters < 1e-3) return three_digits(1e6 * meters) + " µm";
+  if (meters < 0.01) return three_digits(1e3 * meters) + " mm";
+  if (meters < 1) return three_digits(1e2 * meters) + " cm";
+  return three_digits(meters) + " m";
+}
+
+/// A bar of a round length at the foot's left, to the scale of the panels.
+void draw_scale_bar(Image& sheet, const SheetLayout& layout, int x, const Color& ink) {
+  const double length = round_length(0.16 * layout.width / layout.scale);
+  const int pixels = static_cast<int>(std::lround(length * layout.scale));
+  const int thick = std::max(2, layout.text.size / 8), y = layout.bar + line_height(layout.small());
+  fill(sheet, x, y, pixels, thick, ink);
+  for (const int end : {x, x + pixels - thick})
+    fill(sheet, end, y - 2 * thick, thick, 5 * thick, ink);
+  TextStyle words = layout.small();
+  words.align = Align::center;
+  write_text(sheet, length_text(length), x + pixels / 2, y + 4 * thick, words);
+}
+
+/// Says at the foot's right what the colors of the bones' axes stand for.
+void draw_axes_key(Image& sheet, const SheetLayout& layout) {
+  static constexpr std::array<const char*, 3> names = {"along the bone", "its side y",
+                                                       "its side z"};
+  TextStyle words = layout.small();
+  const int line = line_height(words), side = std::max(4, words.size / 2);
+  int y = layout.bar;
+  for (std::size_t axis = 0; axis < names.size(); ++axis, y += line) {
+    const int right = layout.width - layout.margin / 2;
+    words.align = Align::right;
+    write_text(sheet, names[axis], right, y, words);
+    fill(sheet, right - 8 * words.size, y + line / 2 - side / 2, side, side, palette::axes[axis]);
+  }
+}
+
+bool has_bones(const std::vector<SheetRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const SheetRow& row) {
+    return !row.snapshots->front().bones.empty() && row.view != View::particles;
+  });
+}
+
+void draw_foot(Image& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
+               const SheetOptions& options) {
+  const int corner = options.axes ? (layout.height - layout.bar) : 0;
+  if (options.axes)
+    draw_tripod(sheet, options.view, layout.margin / 2, layout.height, corner * 10 / 28);
+  if (options.rulers) draw_scale_bar(sheet, layout, layout.margin / 2 + corner, options.paper.ink);
+  if (options.rulers && has_bones(rows)) draw_axes_key(sheet, layout);
+  if (!show_values(rows)) return;
+  const int bar = layout.width / 3;
+  draw_color_bar(sheet, rows.front().painter->scale(), (layout.width - bar) / 2, layout.bar, bar,
+                 layout.small());
+}
+
 void check(const std::vector<SheetRow>& rows) {
   if (rows.empty() || rows.front().snapshots->empty())
     throw bad_input("a contact sheet needs snapshots", "give at least one");
@@ -197,16 +271,9 @@ Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& optio
   Image sheet(layout.width, layout.height, options.paper.background);
   for (std::size_t i = 0; i < rows.size(); ++i)
     draw_row(sheet, rows[i], layout.rows[i], layout, options);
-  if (options.axes)
-    draw_tripod(sheet, options.view, layout.margin / 2, layout.height,
-                (layout.height - layout.bar) * 10 / 28);
   write_captions(sheet, *rows.front().snapshots, layout);
-  if (!show_values(rows)) return sheet;
-  TextStyle words = layout.text;
-  words.size = std::max(10, words.size * 4 / 5);
-  const int bar = layout.width / 3;
-  draw_color_bar(sheet, rows.front().painter->scale(), (layout.width - bar) / 2, layout.bar, bar,
-                 words);
+  write_text(sheet, options.title, layout.margin, layout.margin / 2, layout.text);
+  draw_foot(sheet, rows, layout, options);
   return sheet;
 }
 

@@ -58,7 +58,9 @@ struct SheetOptions {
   int row_height = 560;  ///< at most, pixels
   Finish finish = Finish::fine;
   Paper paper = {};
-  bool axes = false;  ///< the scene's axes in the corner below the panels
+  bool axes = false;       ///< the scene's axes in the corner below the panels
+  std::string title = {};  ///< above everything, or empty
+  bool rulers = false;     ///< a scale bar, and a key of the colors of the bones' axes
 };
 
 /// All panels to one scale; below them the captions of the first row's snapshots and the color

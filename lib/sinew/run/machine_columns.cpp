@@ -71,8 +71,9 @@ class Collector {
   void add(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) return;
     const std::vector<Cells> rows = rows_of_csv(read_file(file, largest_file));
-    if (rows.empty() || rows[0].size() < 3 || rows[0][0] != "time" || rows[0][1] != "name")
-      refuse(file, "is no table of a testing machine");
+    if (rows.empty() || rows[0].size() < 3 || rows[0][0] != "time" ||
+        (rows[0][1] != "name" && rows[0][1] != "bone"))
+      refuse(file, "is no table of forces");
     for (std::size_t r = 1; r < rows.size(); ++r) {
       if (rows[r].size() != rows[0].size())
         refuse(file, "has " + std::to_string(rows[r].size()) + " cells in row " +
@@ -136,6 +137,68 @@ std::vector<MachineColumn> machine_columns(const std::filesystem::path& folder) 
     column.values.resize((frames + nth - 1) / nth);
   }
   return columns;
+}
+
+namespace {
+
+/// Lengths of the vectors whose components are columns "name: WHAT_x" and so on, by name.
+std::vector<Line> sizes_of(const std::vector<MachineColumn>& columns, const std::string& what) {
+  std::vector<Line> lines;
+  for (std::size_t c = 0; c + 2 < columns.size(); ++c) {
+    const std::string& name = columns[c].name;
+    if (!name.ends_with(": " + what + "_x")) continue;
+    Line line{name.substr(0, name.size() - what.size() - 4), columns[c].values};
+    for (std::size_t i = 0; i < line.values.size(); ++i)
+      line.values[i] =
+          std::hypot(columns[c].values[i], columns[c + 1].values[i], columns[c + 2].values[i]);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+double largest_of(const Line& line) {
+  double most = 0;
+  for (const double value : line.values)
+    if (value > most) most = value;
+  return most;
+}
+
+/// The lines with the largest values, as many as can be told apart; none of what is nothing beside
+/// the largest.
+std::vector<Line> largest_lines(std::vector<Line> lines) {
+  constexpr std::size_t max_lines = 6;
+  constexpr double nothing = 1e-3;
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const Line& a, const Line& b) { return largest_of(a) > largest_of(b); });
+  if (lines.size() > max_lines) lines.resize(max_lines);
+  const double most = lines.empty() ? 0 : largest_of(lines.front());
+  std::erase_if(lines, [&](const Line& line) { return !(largest_of(line) > nothing * most); });
+  return lines;
+}
+
+}  // namespace
+
+std::vector<Chart> force_charts(const std::filesystem::path& folder) {
+  struct Table {
+    const char *file, *of;
+  };
+  std::vector<Chart> charts;
+  for (const auto& [file, of] :
+       {Table{"bones.csv", "bones"}, {"supports.csv", "supports and loads"}}) {
+    std::vector<MachineColumn> columns = {{"time", "s", {}}};
+    Collector(columns).add(folder / file);
+    for (const auto& [what, unit] : {std::pair("force", "N"), std::pair("moment", "N m")}) {
+      std::vector<Line> lines = largest_lines(sizes_of(columns, what));
+      if (lines.empty()) continue;
+      Chart chart;
+      chart.title = (what == std::string("force") ? "Forces of " : "Moments of ") + std::string(of);
+      chart.note = "Their sizes, on the body";
+      chart.unit = unit;
+      chart.lines = std::move(lines);
+      charts.push_back(std::move(chart));
+    }
+  }
+  return charts;
 }
 
 }  // namespace sinew

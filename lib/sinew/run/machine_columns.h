@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// supports.csv and probes.csv of a run as columns over its frames, for the report.
+// The tables of bones, supports and probes of a run as columns and charts over its frames, for the
+// report.
 //
 //     input.machine = machine_columns("out/pull");
 #pragma once
@@ -15,5 +16,10 @@ namespace sinew {
 /// where a run has neither file. Of over 1200 frames, every second, third, ... Throws bad input,
 /// naming the file, for a table that is damaged.
 std::vector<MachineColumn> machine_columns(const std::filesystem::path& folder);
+
+/// Sizes of the forces and moments on the body, of the bones, supports and loads that exert the
+/// largest, over the same frames; none where there are only trifles beside rounding. Throws as
+/// above.
+std::vector<Chart> force_charts(const std::filesystem::path& folder);
 
 }  // namespace sinew

@@ -245,10 +245,37 @@ std::vector<Picture> pictures_in(const RunFolder& folder, const Measured& measur
     if (picture.path == "pictures/scene.png") return 0;
     return picture.path.find("contact_sheet") != std::string::npos ? 1 : 2;
   };
+  const auto is_sheet = [](const Picture& picture) {
+    return picture.path == "pictures/contact_sheet.png";
+  };
+  if (std::any_of(pictures.begin(), pictures.end(), is_sheet))  // which has the same moments
+    std::erase_if(pictures, [](const Picture& picture) {
+      return picture.path.starts_with("pictures/body_");
+    });
   std::sort(pictures.begin(), pictures.end(), [&](const Picture& a, const Picture& b) {
     return place(a) != place(b) ? place(a) < place(b) : a.path < b.path;
   });
   return pictures;
+}
+
+/// What was run, in a sentence, from run.json.
+std::string subject_of(const RunFolder& folder, const Settings& settings) {
+  const auto record = read_record(folder);
+  const auto material = record.value("material", nlohmann::ordered_json::object());
+  const bool paper = settings.material.model == MaterialModel::paper;
+  std::string text = std::to_string(record.value("particles", 0)) + " particles of radius " +
+                     with_unit(record.value("radius", 0.0), "m") + ", " +
+                     (paper ? "the paper's material" : "bonded") + ", Young's modulus " +
+                     with_unit(material.value("young_modulus", 0.0), "Pa");
+  if (paper) text += ", lambda " + three_digits(material.value("lambda", 0.0));
+  if (const double step = record.value("time_step", 0.0);
+      step > 0 && settings.solver.method == Method::dynamic)
+    text += "; steps of " + with_unit(step, "s");
+  std::string command;
+  for (const auto& word : record.value("command", nlohmann::ordered_json::array()))
+    command += (command.empty() ? "; " : " ") + word.get<std::string>();
+  text += command;
+  return text + "; sinew " + record.value("version", "") + ", " + record.value("started", "") + '.';
 }
 
 std::string title_of(const RunFolder& folder) {
@@ -264,6 +291,7 @@ ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie
   input.radius = run.body.particles.radius;
   try {
     input.facts = facts_of(run.folder, run.body.meta);
+    input.subject = subject_of(run.folder, run.settings);
   } catch (const nlohmann::json::exception&) {
     throw bad_input(Place{run.folder.record().string()}, "is not the record of a run",
                     "run the scene again with --force");
@@ -275,6 +303,7 @@ ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie
   input.playback = std::move(measured.playback);
   input.curves = law_curves(run);
   input.machine = machine_columns(run.folder.path);
+  input.forces = force_charts(run.folder.path);
   if (movie == MovieLink::follows || std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
     input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;

@@ -17,37 +17,50 @@ std::vector<ChartPlan> plans_of_shape() {
       {"Distance from the bones",
        "Distance of particles from the rigid pose of their bones",
        "r",
-       {"pose_error_rms", "pose_error_far_rms", "adherence_rms"},
-       Shown::in_radii},
+       {{"pose_error_rms", "all particles"},
+        {"pose_error_far_rms", "those away from joints"},
+        {"adherence_rms", "distance to the bone"}},
+       Shown::in_radii,
+       0.5},
       {"Volume",
        "Relative to the body at rest: of the surface, and the mean around particles",
        "",
-       {"volume_ratio", "J_mean"},
+       {{"volume_ratio", "surface"}, {"J_mean", "mean around particles"}},
        Shown::as_is,
+       0.02,
        {1}},
       {"Neighbors",
        "Pairs lost and gained, as a share of the pairs at rest",
        "%",
-       {"broken_neighbors", "new_neighbors", "broken_bonds"},
-       Shown::in_percent},
+       {{"broken_neighbors", "lost"},
+        {"new_neighbors", "gained"},
+        {"broken_bonds", "broken bonds"}},
+       Shown::in_percent,
+       1},
       {"Groups",
        "Particles that move in groups; all others are free",
        "%",
-       {"grouped"},
-       Shown::in_percent},
+       {{"grouped", "grouped"}},
+       Shown::in_percent,
+       10},
       {"Tip",
        "Rotation of the last bone's outermost particles, and of the bone that rotates most",
        "degrees",
-       {"tip_angle", "bone_angle"}},
+       {{"tip_angle", "outermost particles"}, {"bone_angle", "bone"}},
+       Shown::as_is,
+       5},
       {"Twist from half-plane to half-plane",
        "A cut body shows its whole angle in one step",
        "degrees",
-       {"twist_jump_max"}},
+       {{"twist_jump_max", "largest jump"}},
+       Shown::as_is,
+       2},
       {"Sections across the bones",
        "Largest loss of area (candy wrapper) and largest gain (bulge)",
        "%",
-       {"candy_wrapper", "bulge"},
-       Shown::in_percent},
+       {{"candy_wrapper", "loss"}, {"bulge", "gain"}},
+       Shown::in_percent,
+       2},
   };
 }
 
@@ -56,32 +69,56 @@ std::vector<ChartPlan> plans_of_material() {
       {"Smallest local volume",
        "Below zero the surroundings of a particle are inside out",
        "",
-       {"J_min"},
+       {{"J_min", "smallest J"}},
        Shown::as_is,
+       0.1,
        {0, 1}},
       {"Strain",
        "Equivalent strain not exceeded by 50 %, 95 % and 99 % of the particles",
        "",
-       {"strain_50", "strain_95", "strain_99"}},
-      {"Stress", "Von Mises stress not exceeded by 95 % of the particles", "Pa", {"von_mises_95"}},
-      {"Inverted particles", "Their number", "", {"inverted"}},
+       {{"strain_50", "50 %"}, {"strain_95", "95 %"}, {"strain_99", "99 %"}},
+       Shown::as_is,
+       0.01},
+      {"Stress",
+       "Von Mises stress not exceeded by 95 % of the particles",
+       "Pa",
+       {{"von_mises_95", "95 %"}}},
+      {"Inverted particles",
+       "Particles whose surroundings are inside out",
+       "",
+       {{"inverted", "inverted"}},
+       Shown::as_is,
+       20},
   };
 }
 
 std::vector<ChartPlan> plans_of_surface() {
   return {
-      {"Surface", "Area relative to rest", "", {"area_ratio"}, Shown::as_is, {1}},
-      {"Self-intersections", "Pairs of faces that intersect", "", {"self_intersections"}},
+      {"Surface", "Area relative to rest", "", {{"area_ratio", "area"}}, Shown::as_is, 0.02, {1}},
+      {"Self-intersections",
+       "Pairs of faces that intersect",
+       "",
+       {{"self_intersections", "pairs"}},
+       Shown::as_is,
+       20},
       {"Surface and other poses: farthest",
        "From the rigid pose, linear-blend and dual-quaternion skinning, and a reference",
        "r",
-       {"pose_hausdorff", "lbs_hausdorff", "dqs_hausdorff", "reference_hausdorff"},
-       Shown::in_radii},
+       {{"pose_hausdorff", "rigid pose"},
+        {"lbs_hausdorff", "linear blend"},
+        {"dqs_hausdorff", "dual quaternions"},
+        {"reference_hausdorff", "reference"}},
+       Shown::in_radii,
+       0.5},
       {"Surface and other poses: mean",
        "Mean distance from the same, over the area",
        "r",
-       {"pose_distance_mean", "lbs_distance_mean", "dqs_distance_mean", "reference_distance_mean"},
-       Shown::in_radii},
+       {{"pose_distance_mean", "rigid pose"},
+        {"lbs_distance_mean", "linear blend"},
+        {"dqs_distance_mean", "dual quaternions"},
+        {"reference_distance_mean", "reference"}},
+       Shown::in_radii,
+       0.5},
   };
 }
 
@@ -90,27 +127,33 @@ std::vector<ChartPlan> plans_of_motion() {
       {"Displacement",
        "From the places at rest",
        "r",
-       {"displacement_rms", "displacement_max"},
-       Shown::in_radii},
-      {"Speed", "Of the fastest particle", "m/s", {"speed_max"}},
+       {{"displacement_rms", "root mean square"}, {"displacement_max", "largest"}},
+       Shown::in_radii,
+       0.5},
+      {"Speed", "Of the fastest particle", "m/s", {{"speed_max", "fastest"}}},
       {"Energies",
        "Change since the first frame",
        "J",
-       {"kinetic_energy", "pair_energy", "bone_energy", "gravity_energy", "work_of_bones",
-        "dissipation"},
+       {{"kinetic_energy", "kinetic"},
+        {"pair_energy", "pairs"},
+        {"bone_energy", "bones' springs"},
+        {"gravity_energy", "weight"},
+        {"work_of_bones", "work of bones"},
+        {"dissipation", "dissipated"}},
        Shown::since_start},
       {"World",
        "Energy of contacts with obstacles, and the work of the world on the body, since the "
        "first frame",
        "J",
-       {"contact_energy", "work_of_world"},
+       {{"contact_energy", "contacts"}, {"work_of_world", "work of the world"}},
        Shown::since_start,
+       0,
        {0},
        Drawn::unless_zero},
       {"Balance of energies",
        "Residual of the balance; zero for a perfect integrator",
        "J",
-       {"energy_residual"}},
+       {{"energy_residual", "residual"}}},
   };
 }
 
@@ -196,11 +239,29 @@ Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames,
               std::string(plan.note),
               std::string(plan.unit),
               plan.baselines,
+              plan.span,
               plan.drawn,
               {}};
-  for (const std::string_view metric : plan.metrics)
-    chart.lines.push_back({std::string(metric), shown_values(plan, metric, frames, radius)});
+  for (const auto& [metric, words] : plan.metrics)
+    chart.lines.push_back({std::string(words), shown_values(plan, metric, frames, radius)});
   return chart;
+}
+
+bool says_something(const Chart& chart) {
+  constexpr double rounding = 1e-6, telling = 1.0 / 20;
+  double low = 0, high = 0, largest = 0, change = 0;
+  for (const Line& line : chart.lines) {
+    bool any = false;
+    for (const double value : line.values) {
+      if (!drawable(value)) continue;
+      low = any ? std::min(low, value) : value;
+      high = any ? std::max(high, value) : value;
+      largest = std::max(largest, std::abs(value));
+      any = true;
+    }
+    if (any) change = std::max(change, high - low);
+  }
+  return change > rounding * largest && change >= telling * chart.span;
 }
 
 void leave_out_empty(std::vector<Chart>& charts) {

@@ -20,10 +20,16 @@ enum class Shown { as_is, in_radii, in_percent, since_start };
 /// A chart of a feature that the scene lacks is zero throughout and may be left out.
 enum class Drawn { always, unless_zero };
 
+struct ChartedMetric {
+  std::string_view name;   ///< in metrics_table()
+  std::string_view words;  ///< in the legend
+};
+
 struct ChartPlan {
-  std::string_view title, note, unit;     ///< unit: "" for pure numbers
-  std::vector<std::string_view> metrics;  ///< names in metrics_table(), at most six
+  std::string_view title, note, unit;  ///< unit: "" for pure numbers
+  std::vector<ChartedMetric> metrics;  ///< at most six
   Shown shown = Shown::as_is;
+  double span = 0;  ///< the scale spans as much, so that trifles look like trifles
   std::vector<double> baselines = {0};  ///< values that the scale always includes
   Drawn drawn = Drawn::always;
 };
@@ -35,10 +41,15 @@ struct Line {
 
 struct Chart {
   std::string title, note, unit;
-  std::vector<double> baselines;
+  std::vector<double> baselines = {0};
+  double span = 0;  ///< of the scale, at least
   Drawn drawn = Drawn::always;
-  std::vector<Line> lines;
+  std::vector<Line> lines = {};
 };
+
+/// Whether a chart is worth its place: its values change by a twentieth of what its scale spans at
+/// least, and by more than rounding.
+bool says_something(const Chart& chart);
 
 /// The report's charts, the most informative first.
 std::span<const ChartPlan> chart_plans();

@@ -47,6 +47,7 @@ Chart chart_of_both(const ChartPlan& plan, std::string_view metric, const RunCom
           std::string(metrics_table()[metric_index(metric)].help),
           std::string(plan.unit),
           plan.baselines,
+          plan.span,
           plan.drawn,
           {{name_of(compared, false), shown_values(plan, metric, compared.first.frames, radius)},
            {name_of(compared, true), shown_values(plan, metric, compared.second.frames, radius)}}};
@@ -57,8 +58,11 @@ Chart chart_of_distances(const RunComparison& compared) {
                        "Of the same particles, of the same points of the surface, and of the "
                        "nearest places",
                        "r of a",
-                       {"reference_particles_rms", "reference_particles_max",
-                        "reference_surface_rms", "reference_hausdorff", "reference_distance_mean"},
+                       {{"reference_particles_rms", "particles, root mean square"},
+                        {"reference_particles_max", "particles, largest"},
+                        {"reference_surface_rms", "surface, root mean square"},
+                        {"reference_hausdorff", "nearest places, largest"},
+                        {"reference_distance_mean", "nearest places, mean"}},
                        Shown::in_radii};
   return planned_chart(plan, compared.differences, compared.first.radius);
 }
@@ -69,9 +73,10 @@ std::vector<Chart> charts_of(const ComparisonInput& input) {
   charts.push_back(chart_of_distances(compared));
   std::set<std::string_view> drawn;
   for (const ChartPlan& plan : chart_plans())
-    for (const std::string_view metric : plan.metrics)
+    for (const auto& [metric, words] : plan.metrics)
       if (drawn.insert(metric).second) charts.push_back(chart_of_both(plan, metric, compared));
   leave_out_empty(charts);
+  std::stable_partition(charts.begin(), charts.end(), says_something);
   return charts;
 }
 

@@ -35,10 +35,8 @@ Json json_of(const Chart& chart, const std::vector<double>& times) {
   Json lines = Json::array();
   for (const Line& line : chart.lines)
     lines.push_back({{"name", line.name}, {"points", points_of(times, line.values)}});
-  return {{"title", chart.title},
-          {"note", chart.note},
-          {"unit", chart.unit},
-          {"baselines", chart.baselines},
+  return {{"title", chart.title},         {"note", chart.note}, {"unit", chart.unit},
+          {"baselines", chart.baselines}, {"span", chart.span}, {"folded", !says_something(chart)},
           {"lines", std::move(lines)}};
 }
 
@@ -275,7 +273,11 @@ std::string charts_section(bool with_view) {
   hint += with_view ? "; click a chart to show that time in the 3D view." : ".";
   return element("section",
                  element("h2", "Over time") + element("p", hint, "class=\"quiet hint\"") +
-                     element("div", "", "class=\"charts\" id=\"charts\""),
+                     element("div", "", "class=\"charts\" id=\"charts\"") +
+                     element("details",
+                             element("summary", "What hardly changed") +
+                                 element("div", "", "class=\"charts\" id=\"quiet-charts\""),
+                             "id=\"quiet\" hidden"),
                  "class=\"needs-script\"");
 }
 

@@ -37,7 +37,7 @@ struct PageData {
 };
 
 /// One JSON object:
-/// - charts: title, note, unit, baselines, lines (name, points [time, value or null])
+/// - charts: title, note, unit, baselines, span, folded, lines (name, points [time, value or null])
 /// - angles: of the bones, [time, degrees]; none where there are no bones
 /// - curves: title, note, across, up, lines (name, points [x, y])
 /// - worst: metric, frame, time

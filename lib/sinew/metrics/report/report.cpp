@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/report/report.h>
 
+#include <algorithm>
+
 #include <sinew/core/error.h>
 #include <sinew/metrics/markup.h>
 #include <sinew/metrics/report/charts.h>
@@ -15,8 +17,9 @@ std::string header(const ReportInput& input) {
                            readable(frames.front().time) + " s to " + readable(frames.back().time) +
                            " s. One r is the radius of a particle, " + readable(input.radius) +
                            " m.";
-  return element("header",
-                 element("h1", escaped(input.title)) + element("p", line, "class=\"quiet\""));
+  return element("header", element("h1", escaped(input.title)) +
+                               (input.subject.empty() ? "" : element("p", escaped(input.subject))) +
+                               element("p", line, "class=\"quiet\""));
 }
 
 std::string pictures(const ReportInput& input) {
@@ -44,6 +47,8 @@ PageData drawn_data(const ReportInput& input) {
   for (const ChartPlan& plan : chart_plans())
     data.charts.push_back(planned_chart(plan, input.frames, input.radius));
   leave_out_empty(data.charts);
+  for (const Chart& chart : input.forces) data.charts.push_back(chart);
+  std::stable_partition(data.charts.begin(), data.charts.end(), says_something);
   data.curves = input.curves;
   data.worst = worst_frames(input.frames, input.summary);
   data.machine = input.machine;

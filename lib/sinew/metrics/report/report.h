@@ -11,6 +11,7 @@
 
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/limits.h>
+#include <sinew/metrics/report/charts.h>
 #include <sinew/metrics/report/playback.h>
 #include <sinew/metrics/summary.h>
 
@@ -51,6 +52,7 @@ struct MachineColumn {
 /// Texts are plain; the page escapes them.
 struct ReportInput {
   std::string title;    ///< the scene's name
+  std::string subject;  ///< what was run, in a sentence
   std::string version;  ///< of sinew
   double radius = 0;    ///< of a particle, m
   std::vector<FactGroup> facts;
@@ -58,6 +60,7 @@ struct ReportInput {
   Summary summary;                   ///< of these frames
   std::vector<Check> checks;
   std::vector<LawCurve> curves;
+  std::vector<Chart> forces;           ///< of bones, supports and loads, one value per frame
   std::vector<MachineColumn> machine;  ///< all of the same length; the page offers any two of them
   Playback playback;                   ///< of no frames: the page has no 3D view
   std::vector<Picture> pictures;

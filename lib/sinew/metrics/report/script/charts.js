@@ -111,6 +111,8 @@ function shownEnds(chart) {
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const [middle, size] = [(low + high) / 2, Math.max(Math.abs(low), Math.abs(high))];
   const half = Math.max(high - low, leastSpan * size) / 2;
+  if (chart.span > high - low)  // from the baseline on, where all lies above it
+    return { suggestedMin: low, suggestedMax: low + chart.span };
   return { suggestedMin: middle - half, suggestedMax: size === 0 ? 1 : middle + half };
 }
 
@@ -168,7 +170,7 @@ function timeChart(plan) {
   const settings = options(timeScales(plan, whole), "s");
   settings.plugins.legend.labels.filter = (item) => item.text !== "bones";
   if (data.angles.length) datasets.push(angleSet());
-  const chart = new Chart(canvasIn(byId("charts"), plan),
+  const chart = new Chart(canvasIn(byId(plan.folded ? "quiet-charts" : "charts"), plan),
     { type: "line", data: { datasets }, options: settings, plugins: [marks] });
   chart.wholeTime = whole;
   timeCharts.push(chart);
@@ -195,9 +197,12 @@ function drawCharts() {
   const { defaults } = Chart;
   Object.assign(defaults, { color: colorOf("--ink"), borderColor: colorOf("--rule") });
   defaults.font.family = getComputedStyle(document.body).fontFamily;
+  byId("quiet").hidden = !data.charts.some((chart) => chart.folded);
+  byId("quiet").open = true; // a chart that is drawn while it is folded has no size
   const charts = [...data.charts.map(timeChart), ...data.curves.map(curveChart)];
   const machine = machineChart();
   if (machine) charts.push(machine);
+  byId("quiet").open = false;
   followPrinting(charts);
   return charts;
 }

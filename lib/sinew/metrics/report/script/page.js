@@ -33,6 +33,7 @@ function begin() {
     hidden: timeCharts[0]?.isDatasetVisible(0) === false,
     webgl: playback !== null,
     snapshot: playback?.player.snapshot ?? null,
+    playing: Boolean(playback?.player.timer),
     field: playback?.view.playback.fields[Number(byId("field").value)]?.name ?? null,
     legend: [...byId("bone-names")?.children ?? []].map((entry) => entry.textContent),
     places: playback ? [...playback.view.spheres.geometry.attributes.position.array] : [],

@@ -88,6 +88,24 @@ function makePlayer(view) {
   return player;
 }
 
+/** The snapshot with the largest strain, or with the widest turn of bones. */
+function mostDeformed(playback) {
+  const worst = data.worst.find((one) => one.metric === "strain_99");
+  return worst ? nearestSnapshot(playback, (one) => Math.abs(one.frame - worst.frame)) : 0;
+}
+
+/** What is seen first: the largest deformation in color, the skin on, and the motion playing slowly
+ * unless the reader wants none. */
+function begin3D(player, playback) {
+  const strain = playback.fields.findIndex(({ name }) => name === "strain");
+  if (strain >= 0) byId("field").value = String(strain);
+  byId("show-surface").checked = true;
+  byId("show-particles").checked = strain >= 0;
+  player.go(mostDeformed(playback));
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches || playback.snapshots.length < 2;
+  if (!still) play(player, playback);
+}
+
 /** Milliseconds per frame, so that the playback runs in real time, but at most ten seconds. */
 function pace(playback) {
   const span = playback.snapshots[playback.snapshots.length - 1].time - playback.snapshots[0].time;
@@ -103,20 +121,27 @@ function play(player, playback) {
   byId("play").ariaLabel = playing ? "Play" : "Stop";
 }
 
+/** Shows what a reader asks for, and stops there. */
+function seek(player, playback, snapshot) {
+  if (player.timer !== null) play(player, playback);
+  player.go(snapshot);
+}
+
 function connect(player, view) {
   const { playback } = view;
+  const goTo = (snapshot) => seek(player, playback, snapshot);
   byId("has-bones").hidden = playback.boneNames.length === 0;
   for (const part of ["has-forces", "force-names"]) byId(part).hidden = playback.isLoad.length === 0;
   byId("has-held").hidden = playback.held.length === 0;
   byId("has-obstacles").hidden = playback.obstacles.every((corners) => corners.length === 0);
   byId("time").max = playback.snapshots.length - 1;
-  byId("time").addEventListener("input", () => player.go(Number(byId("time").value)));
+  byId("time").addEventListener("input", () => goTo(Number(byId("time").value)));
   byId("play").addEventListener("click", () => play(player, playback));
   byId("reset").addEventListener("click", () => aim(view));
   for (const id of ["field", "show-particles", "show-surface", "show-bones", "show-forces", "show-obstacles", "cut"])
     byId(id).addEventListener("change", player.show);
-  marked.go = (time) => player.go(nearestSnapshot(playback, (snapshot) => Math.abs(snapshot.time - time)));
-  showWorst(playback, player.go);
+  marked.go = (time) => goTo(nearestSnapshot(playback, (snapshot) => Math.abs(snapshot.time - time)));
+  showWorst(playback, goTo);
 }
 
 function startPlayback(packed) {
@@ -124,6 +149,6 @@ function startPlayback(packed) {
   const view = makeView(playback, byId("stage"));
   const player = makePlayer(view);
   connect(player, view);
-  player.show();
+  begin3D(player, playback);
   return { view, player };
 }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The moments that represent a motion in a few pictures, and what each of them shows.
+//
+//     for (const KeyMoment& moment : key_moments(overview, radius)) draw(moment.frame);
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sinew {
+
+struct RunOverview;
+
+struct KeyMoment {
+  std::size_t frame = 0;
+  std::string what;  ///< as "largest bend"; empty: nothing to say
+};
+
+/// Rest, half the largest turn of a bone, the largest (the last such frame), and the end; evenly
+/// over all frames where no bone turns. `radius` of a particle, m.
+std::vector<KeyMoment> key_moments(const RunOverview& overview, double radius);
+
+}  // namespace sinew
