@@ -224,8 +224,8 @@ std::vector<WrittenArray> table_of_volume() {
        "number of the particle, from 0; -1 at other points"},
       {"volume", cell, "J", "1", one, real, scalars, "volume over the volume at rest"},
       {"volume", cell, "torn", "1", one, whole, plain,
-       "1 where particles of the cell that touched at rest are apart: their bond is broken, or "
-       "they are farther than b from each other"},
+       "1 where particles of the cell are apart: their bond is broken or, in the paper's model, "
+       "they touched at rest and are farther than b from each other"},
   };
 }
 

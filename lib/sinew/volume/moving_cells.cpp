@@ -8,6 +8,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/rest_neighbors.h>
 
 namespace sinew {
 namespace {
@@ -29,7 +30,7 @@ std::uint32_t particle_of(const Skin& skin, std::uint32_t k) {
 
 MovingCells::MovingCells(VolumeCells cells, const Points& rest, double radius,
                          const std::function<Skin(const Points&)>& skin_of)
-    : cells_(std::move(cells)), skin_(skin_of(places_of(cells_))) {
+    : cells_(std::move(cells)), skin_(without_lone_particles(skin_of(places_of(cells_)))) {
   for (std::uint32_t i = 0; i < cells_.points.size(); ++i)
     if (cells_.id[i] < 0) followers_.push_back(i);
   for (const Cell& cell : cells_.cells) volume_.push_back(volume_of(cells_.points, cell));
@@ -52,7 +53,7 @@ void MovingCells::find_pairs(const Points& rest, double radius) {
     std::uint32_t cell;
   };
   std::vector<Found> found;
-  const double range = rest_neighbor_range(radius);
+  const double range = second_neighbor_range * radius;
   for (std::uint32_t c = 0; c < cells_.cells.size(); ++c)
     for (const std::uint32_t v : cells_.cells[c])
       for (const std::uint32_t w : cells_.cells[c]) {
@@ -64,7 +65,11 @@ void MovingCells::find_pairs(const Points& rest, double radius) {
     return std::tie(a.pair, a.cell) < std::tie(b.pair, b.cell);
   });
   for (const Found& one : found) {
-    if (pairs_.empty() || pairs_.back() != one.pair) pairs_.push_back(one.pair);
+    if (pairs_.empty() || pairs_.back() != one.pair) {
+      pairs_.push_back(one.pair);
+      const double distance = (rest[one.pair[0]] - rest[one.pair[1]]).norm();
+      touching_.push_back(distance < rest_neighbor_range(radius));
+    }
     pair_of_cell_.push_back({static_cast<std::uint32_t>(pairs_.size() - 1), one.cell});
   }
 }

@@ -36,8 +36,11 @@ class MovingCells {
   /// Volume of each cell with its points at `now` over that at rest; negative: inside out.
   std::vector<double> volume_ratios(const Points& now) const;
 
-  /// Pairs of particles of the same cell that touch at rest, the lower first, each once.
+  /// Pairs of particles of the same cell that are nearest or second neighbors at rest, the lower
+  /// first, each once, ascending.
   const std::vector<std::array<std::uint32_t, 2>>& pairs() const { return pairs_; }
+  /// Whether particles of each pair touch at rest.
+  const std::vector<char>& touching() const { return touching_; }
   /// 1 for cells with a pair that is apart, one number per pair.
   std::vector<std::int32_t> torn(const std::vector<char>& apart) const;
 
@@ -51,6 +54,7 @@ class MovingCells {
   Skin skin_;                             ///< these
   std::vector<double> volume_;            ///< of cells at rest, m^3
   std::vector<std::array<std::uint32_t, 2>> pairs_;
+  std::vector<char> touching_;
   std::vector<std::array<std::uint32_t, 2>> pair_of_cell_;  ///< rows of a pair and a cell
 };
 

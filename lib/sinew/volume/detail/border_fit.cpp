@@ -5,18 +5,19 @@
 #include <cmath>
 
 #include <sinew/core/parallel.h>
+#include <sinew/volume/detail/creases.h>
 
 namespace sinew {
 namespace {
 
-using Face = std::array<std::uint32_t, 3>;
+using Face = BorderFace;
 
 constexpr std::size_t faces_at_a_time = 64;
 constexpr double reach = 0.8;         // radii: where the surface is looked for from a face
 constexpr double mean_of_gap = 0.75;  // over a face, relative to its center, of a round surface
 constexpr double farthest = 0.25;     // radii that a point may move
 constexpr double flat_enough = 12;    // degrees: cells with smaller angles become no flatter
-constexpr double flat_gap = 1e-4;    // radii: below, faces are plane
+constexpr double flat_gap = 1e-4;     // radii: below, faces are plane
 
 /// The four faces of a positive cell, outward.
 std::array<Face, 4> faces_of(const Cell& cell) {
@@ -37,37 +38,40 @@ double gap_of(const VolumeCells& body, const Face& face, const InsideSpace& spac
   return (2 * space.crossing(center - step, center + step) - 1) * reach * radius;
 }
 
-class CellsOfPoint {
- public:
-  explicit CellsOfPoint(const VolumeCells& body) : first_(body.points.size() + 1) {
-    for (const Cell& cell : body.cells)
-      for (const std::uint32_t v : cell) ++first_[v + 1];
-    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-    cells_.resize(first_.back());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t c = 0; c < body.cells.size(); ++c)
-      for (const std::uint32_t v : body.cells[c]) cells_[next[v]++] = c;
-  }
-
-  /// The smallest angle of the cells of a point, negative where one is inside out.
-  double smallest_angle(const VolumeCells& body, std::uint32_t point) const {
-    double smallest = 180;
-    for (std::size_t k = first_[point]; k < first_[point + 1]; ++k) {
-      const Cell& cell = body.cells[cells_[k]];
-      if (volume_of(body.points, cell) <= 0) return -1;
-      std::array<Vec3, 4> corners;
-      for (int v = 0; v < 4; ++v) corners[v] = body.points[cell[v]];
-      smallest = std::min(smallest, dihedral_angles(corners).smallest);
-    }
-    return smallest;
-  }
-
- private:
-  std::vector<std::size_t> first_;
-  std::vector<std::uint32_t> cells_;
-};
-
 }  // namespace
+
+CellsOfPoint::CellsOfPoint(const VolumeCells& body) : first_(body.points.size() + 1) {
+  for (const Cell& cell : body.cells)
+    for (const std::uint32_t v : cell) ++first_[v + 1];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  cells_.resize(first_.back());
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t c = 0; c < body.cells.size(); ++c)
+    for (const std::uint32_t v : body.cells[c]) cells_[next[v]++] = c;
+}
+
+/// Negative where a cell is inside out.
+double CellsOfPoint::smallest_angle(const VolumeCells& body, std::uint32_t point) const {
+  double smallest = 180;
+  for (std::size_t k = first_[point]; k < first_[point + 1]; ++k) {
+    const Cell& cell = body.cells[cells_[k]];
+    if (volume_of(body.points, cell) <= 0) return -1;
+    std::array<Vec3, 4> corners;
+    for (int v = 0; v < 4; ++v) corners[v] = body.points[cell[v]];
+    smallest = std::min(smallest, dihedral_angles(corners).smallest);
+  }
+  return smallest;
+}
+
+bool CellsOfPoint::move(VolumeCells& body, std::uint32_t point, const Vec3& place,
+                        double flat) const {
+  const Vec3 before = body.points[point];
+  const double angle = smallest_angle(body, point);
+  body.points[point] = place;
+  if (smallest_angle(body, point) >= std::min(angle, flat)) return true;
+  body.points[point] = before;
+  return false;
+}
 
 std::vector<Face> border_of(const VolumeCells& body) {
   struct Sorted {
@@ -92,6 +96,7 @@ std::vector<Face> border_of(const VolumeCells& body) {
 
 void fit_border(VolumeCells& body, const InsideSpace& space, double radius) {
   const std::vector<Face> border = border_of(body);
+  const std::vector<char> snapped = snap_to_creases(body, border, space, radius);
   std::vector<double> gap(border.size());
   parallel_for(border.size(), faces_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) gap[f] = gap_of(body, border[f], space, radius);
@@ -108,14 +113,10 @@ void fit_border(VolumeCells& body, const InsideSpace& space, double radius) {
   }
   const CellsOfPoint cells(body);
   for (std::uint32_t v = 0; v < body.points.size(); ++v) {
-    if (area[v] == 0 || body.id[v] >= 0) continue;
+    if (area[v] == 0 || body.id[v] >= 0 || snapped[v]) continue;
     const double shift = std::clamp(missing[v] / area[v], -farthest * radius, farthest * radius);
-    if (std::abs(shift) < flat_gap * radius) continue;
-    const Vec3 before = body.points[v];
-    const double angle = cells.smallest_angle(body, v);
-    body.points[v] += shift * normal[v].normalized();
-    const double after = cells.smallest_angle(body, v);
-    if (after < std::min(angle, flat_enough)) body.points[v] = before;
+    if (std::abs(shift) > flat_gap * radius)
+      cells.move(body, v, body.points[v] + shift * normal[v].normalized(), flat_enough);
   }
 }
 

@@ -49,6 +49,11 @@ class InsideSpace {
   double crossing(const Vec3& inside, const Vec3& outside) const;
   /// The nearest point of the surface, m.
   NearestOnFaces nearest(const Vec3& point) const { return nearest_.to(point); }
+  const Triangles& surface() const { return surface_; }
+  /// Whether what is inside ends there: it is behind the point, and not in front of it.
+  bool is_border(const Vec3& point, const Vec3& outward) const {
+    return contains(point - outward) && !contains(point + outward);
+  }
 
  private:
   std::optional<double> in_face(const Vec3& from, const Vec3& to, double low, double high) const;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t edges_at_a_time = 64;
 constexpr double longest_touching = 2.4;  // radii
+constexpr double flat_at_crease = 12;     // degrees
 
 /// An edge that crosses the border.
 struct CutEdge {
@@ -32,14 +33,14 @@ class Stuffing {
  public:
   Stuffing(const Scaffold& scaffold, const InsideSpace& space, double radius,
            const NearFractions& near)
-      : scaffold_(scaffold), near_(near), touching_(longest_touching * radius) {
+      : scaffold_(scaffold), space_(space), near_(near), touching_(longest_touching * radius) {
     for (const char inside : scaffold.inside)
       side_.push_back(inside ? Side::inside : Side::outside);
     body_.points = scaffold.points;
     body_.id = body_.beside = scaffold.particle;
     find_edges();
     parallel_for(edges_.size(), edges_at_a_time, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) cross(edges_[e], space);
+      for (std::size_t e = begin; e < end; ++e) cross(edges_[e]);
     });
     move_points();
     add_crossings();
@@ -61,9 +62,9 @@ class Stuffing {
     edges_.erase(std::unique(edges_.begin(), edges_.end(), same), edges_.end());
   }
 
-  void cross(CutEdge& edge, const InsideSpace& space) const {
+  void cross(CutEdge& edge) const {
     const Vec3 &from = scaffold_.points[edge.inside], &to = scaffold_.points[edge.outside];
-    edge.at = space.crossing(from, to);
+    edge.at = space_.crossing(from, to);
     edge.place = from + edge.at * (to - from);
   }
 
@@ -139,6 +140,7 @@ class Stuffing {
       if (side_[v] == Side::outside) out[outs++] = v;
       if (side_[v] == Side::border) border[borders++] = v;
     }
+    if (ins == 0 && outs == 0) return add_at_crease(cell);
     if (ins == 0) return;
     if (outs == 0) return add(cell);
     if (ins == 1) return add_corner(in[0], {out.data(), out.data() + outs}, border);
@@ -185,7 +187,7 @@ class Stuffing {
     for (const Cell& part : parts_of(prism, order)) add(part);
   }
 
-  double smallest_angle(const std::array<Cell, 3>& parts) const {
+  double smallest_angle(std::span<const Cell> parts) const {
     double smallest = 180;
     for (const Cell& part : parts) {
       std::array<Vec3, 4> corners;
@@ -193,6 +195,13 @@ class Stuffing {
       smallest = std::min(smallest, dihedral_angles(corners).smallest);
     }
     return smallest;
+  }
+
+  /// All corners have moved to the border: flat outside of creases.
+  void add_at_crease(const Cell& cell) {
+    Vec3 center = Vec3::Zero();
+    for (const std::uint32_t v : cell) center += body_.points[v] / 4;
+    if (smallest_angle({&cell, 1}) > flat_at_crease && space_.contains(center)) add(cell);
   }
 
   /// Two corners inside: the diagonal along the border concerns no other cell, and may be the
@@ -231,6 +240,7 @@ class Stuffing {
   }
 
   const Scaffold& scaffold_;
+  const InsideSpace& space_;
   NearFractions near_;
   double touching_;  ///< m
   std::vector<Side> side_;
