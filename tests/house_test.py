@@ -12,6 +12,7 @@ from pathlib import Path
 
 ARROWS = {
     "core": set(), "settings": {"core"}, "mesh": {"core"}, "repair": {"core", "mesh"}, "fill": {"core", "mesh"}, "rig": {"core"},
+    "volume": {"core", "mesh", "fill", "rig"},
     "metrics": {"core"}, "io": {"core", "rig"}, "render": {"core"}, "display": {"core"}, "vtk": {"core"},
     "material": {"core"}, "body": {"core", "rig", "material"}, "world": {"core", "rig", "material", "body"},
     "analysis": {"core", "rig", "material", "body", "world"}, "kernel": set(),
@@ -20,9 +21,9 @@ ARROWS = {
     "stepping": {"core", "rig", "material", "body", "world", "analysis", "kernel", "lists", "groups"},
     "engine": {"core", "rig", "material", "body", "world"},
     "lammps": {"core", "rig", "material", "body", "world", "engine", "io"},
-    "scene": {"core", "settings", "mesh", "repair", "fill", "rig", "material", "body", "world", "analysis", "kernel", "groups",
+    "scene": {"core", "settings", "mesh", "repair", "fill", "volume", "rig", "material", "body", "world", "analysis", "kernel", "groups",
               "stepping", "io"},
-    "run": {"core", "settings", "mesh", "repair", "fill", "rig", "material", "body", "world", "stepping", "engine", "io", "scene",
+    "run": {"core", "settings", "mesh", "repair", "fill", "volume", "rig", "material", "body", "world", "stepping", "engine", "io", "scene",
             "metrics"},
     "figures": {"core", "settings", "rig", "material", "body", "world", "io", "scene", "metrics", "render", "run"},
     "study": {"core", "settings", "mesh", "repair", "io", "scene", "metrics", "run"},
@@ -32,7 +33,7 @@ INTERNAL = {"kernel": ("instruction_set.h",), "lists": ("list_counts.h",), "lamm
             "groups": ("bone_assemblies.h", "kept_free.h", "make_grouping.h", "static_groups.h")}
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
-    r"(CGAL|boost)/": ("mesh", "repair", "fill"),
+    r"(CGAL|boost)/": ("mesh", "repair", "fill", "volume"),
     r"vtk\w*\.h": ("render", "vtk", "vtk/data_sets.h"),
     r"yaml-cpp/": ("settings",),
     r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),

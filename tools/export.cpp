@@ -3,9 +3,13 @@
 // finite elements.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
+#include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/run/export_run.h>
+#include <sinew/run/run_folder.h>
+#include <sinew/run/volume_frames.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/finite_elements.h>
 #include <sinew/scene/rig.h>
@@ -24,6 +28,7 @@ struct Options {
 };
 
 constexpr const char* of_scenes = "calculix";  // not of particles
+constexpr const char* of_cells = "volume";     // of tetrahedra between them
 
 bool is_deck(const Options& options) {
   return options.format == of_scenes ||
@@ -34,7 +39,9 @@ void declare(OptionList& list, Options& options) {
   list.add("DIR", options.folder, "Folder of the run; for calculix a scene (YAML)").required();
   list.add("--to", options.format,
            "Format, by default that of the file's name: " + help_of_formats() +
-               ", calculix (of a scene: finite elements, an input deck of CalculiX, .inp)")
+               ", volume (tetrahedra between the particles, a series of VTU files as of "
+               "output.volume, by default in the run's folder), calculix (of a scene: finite "
+               "elements, an input deck of CalculiX, .inp)")
       .type_name("FORMAT");
   list.add("--times", options.times, "Times of the frames, s; all frames if not given")
       .comma_separated()
@@ -146,8 +153,30 @@ void refuse_deck_options(const Options& options, const Common& common) {
     throw bad_input("--set is for scenes", "leave it out, or add --to calculix");
 }
 
+Exit export_cells(const Options& options, const Common& common) {
+  const RunFiles run = open_run({options.folder});
+  const std::vector<std::size_t> frames = frames_at(run, options.times);
+  const std::filesystem::path target = options.output.empty() ? options.folder : options.output;
+  const bool own = options.output.empty();
+  if (!own && is_of_the_run(target, options.folder))
+    throw bad_input(Place{target.string()}, "is of the run itself",
+                    "leave -o out, or give another name with it");
+  std::optional<FolderLock> lock;
+  if (own) lock.emplace(run.folder);
+  if (!own) create_folder(target);
+  const ExportedVolume done = export_volume(run, frames, target);
+  Results results;
+  results.add("particles", run.body.particles.size());
+  results.add("tetrahedra", done.cells);
+  results.add("frames", done.frames);
+  results.add("file", done.pvd.string());
+  results.print(common);
+  return Exit::done;
+}
+
 Exit export_run(const Options& options, const Common& common) {
   refuse_deck_options(options, common);
+  if (options.format == of_cells) return export_cells(options, common);
   const ParticleFormat& format = chosen_format(options);
   const RunFiles run = open_run({options.folder});
   const std::vector<std::size_t> frames = frames_at(run, options.times);
@@ -164,12 +193,13 @@ Exit export_run(const Options& options, const Common& common) {
 
 int main(int argc, char** argv) {
   Options options;
-  About about{"export",
-              "Writes the particles of a run, or the body of a scene, for other programs.",
-              {"sinew export out/box_bend --to xyz -o box_bend.xyz",
-               "sinew export out/box_bend --to lammps --times 1 -o bent.data",
-               "sinew export out/box_bend --to bgeo -o frames",
-               "sinew export beam.yaml --to calculix -o beam.inp"}};
+  About about{
+      "export",
+      "Writes the particles of a run, or the body of a scene, for other programs.",
+      {"sinew export out/box_bend --to xyz -o box_bend.xyz",
+       "sinew export out/box_bend --to lammps --times 1 -o bent.data",
+       "sinew export out/box_bend --to bgeo -o frames", "sinew export out/box_bend --to volume",
+       "sinew export beam.yaml --to calculix -o beam.inp"}};
   return run_command(
       argc, argv, about, [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) {

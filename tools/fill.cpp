@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include <sinew/core/particles.h>
+#include <sinew/io/cells/cell_formats.h>
 #include <sinew/io/particle_formats/formats.h>
 #include <sinew/scene/body.h>
 #include <sinew/settings/read_scene.h>
@@ -16,6 +18,8 @@ namespace {
 
 using namespace sinew;
 
+constexpr const char* of_cells = "tetrahedra";  // not of particles
+
 struct Options {
   std::string input, output, format;
   bool verify = false;
@@ -26,7 +30,9 @@ void declare(OptionList& list, Options& options) {
   list.add("INPUT", options.input, "Scene (YAML), or mesh (" + mesh_formats() + ')').required();
   list.add("-o", options.output, "File of the filled body, by default body.vtu").type_name("FILE");
   list.add("--to", options.format,
-           "Format, by default that of the file's name: " + help_of_formats())
+           "Format, by default that of the file's name: " + help_of_formats() +
+               "; tetrahedra between the particles, up to the surface: " + help_of_cell_files() +
+               ", by default volume.vtu")
       .type_name("FORMAT");
   list.add_flag("--verify", options.verify,
                 "Check every site against CGAL's Side_of_triangle_mesh (closed meshes; slow)");
@@ -73,12 +79,48 @@ void write(const Options& options, const ParticleFormat& format, const Settings&
   write_particles(options.output, cloud, format);
 }
 
+Settings settings_for(const Options& options, const Common& common) {
+  return is_scene(options.input) ? settings_for_scene(options, common)
+                                 : settings_for_mesh(options, common);
+}
+
+void print_cells(const VolumeCells& cells, std::size_t particles, const Options& options,
+                 const Common& common) {
+  const CellQuality quality = quality_of(cells);
+  Results results;
+  results.add("particles", particles);
+  results.add("tetrahedra", cells.cells.size());
+  results.add("points", cells.points.size());
+  results.add("volume", quality.volume, "m^3");
+  results.add("smallest_angle", quality.angles.smallest, "degrees between two faces");
+  results.add("largest_angle", quality.angles.largest, "degrees");
+  results.add("file", options.output);
+  results.print(common);
+}
+
+Exit fill_with_cells(Options options, const Common& common) {
+  if (options.output.empty()) options.output = "volume.vtu";
+  check_cell_file(options.output);
+  const Settings settings = settings_for(options, common);
+  refuse_output(options.output, {options.input, settings.body.mesh},
+                std::filesystem::path(options.output).extension().string());
+  const Surface surface = read_mesh(settings);
+  const Filling filling = fill_body(settings, surface, options.verify);
+  const Points rest = positions_of(filling.particles);
+  const VolumeCells cells = cells_of_body(settings, surface, rest, filling.particles.radius);
+  write_cells(options.output, dataset_of(cells));
+  print_cells(cells, rest.size(), options, common);
+  for (const std::string& warning : filling.report.warnings)
+    say(common, "sinew: warning: " + warning);
+  return Exit::done;
+}
+
 Exit fill(Options options, const Common& common) {
+  if (options.format == of_cells) return fill_with_cells(options, common);
   if (options.output.empty() && options.format.empty()) options.format = "vtu";
   const ParticleFormat& format = format_of(options.format, options.output);
   if (options.output.empty()) options.output = "body" + std::string(format.extensions.front());
-  const Settings settings = is_scene(options.input) ? settings_for_scene(options, common)
-                                                    : settings_for_mesh(options, common);
+  const Settings settings = settings_for(options, common);
   const std::string extension = std::filesystem::path(options.output).extension().string();
   refuse_output(options.output, {options.input, settings.body.mesh}, extension);
   Filling filling = fill_body(settings, read_mesh(settings), options.verify);
@@ -98,6 +140,7 @@ int main(int argc, char** argv) {
        "Fills a mesh, or the mesh of a scene, with closest-packed particles.",
        {"sinew fill configs/box_bend.yaml",
         "sinew fill body.obj --radius 0.01 --to lammps -o body.data",
+        "sinew fill body.obj --radius 0.01 --to tetrahedra -o body.msh",
         "sinew fill body.stl --unit mm --count 100000 --packing hcp --verify"}},
       [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) { return fill(options, common); });

@@ -46,5 +46,6 @@
 #if __has_include(<sinew/vtk/data_sets.h>) && __has_include(<vtkSmartPointer.h>)
 #include <sinew/vtk/data_sets.h>
 #endif
+#include <sinew/volume/moving_cells.h>
 #include <sinew/world/own_forces.h>
 #include <sinew/world/world.h>

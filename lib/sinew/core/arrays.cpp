@@ -217,6 +217,20 @@ std::vector<WrittenArray> table_of_bonds() {
   return rows;
 }
 
+/// Its points have the arrays of particles as well.
+std::vector<WrittenArray> table_of_volume() {
+  return {
+      {"volume", point, "Points", "m", xyz, real, plain,
+       "position of the particle, or of a point of the border that follows particles"},
+      {"volume", point, "id", "1", one, whole, plain,
+       "number of the particle, from 0; -1 at other points"},
+      {"volume", cell, "J", "1", one, real, scalars, "volume over the volume at rest"},
+      {"volume", cell, "torn", "1", one, whole, plain,
+       "1 where particles of the cell are apart: their bond is broken or, in the paper's model, "
+       "they touched at rest and are farther than b from each other"},
+  };
+}
+
 std::vector<WrittenArray> table_of_frames() {
   return {
       {"frames", point, "Points", "m", xyz, real, plain, "head of the bone"},
@@ -293,10 +307,11 @@ std::vector<WrittenArray> table_of_blowup() {
 
 std::vector<WrittenArray> make_table() {
   std::vector<WrittenArray> table;
-  for (auto rows : {table_of_all, table_of_body, table_of_particles, table_of_measured_in_particles,
-                    table_of_stepped, table_of_values, table_of_surface, table_of_skin_lbs,
-                    table_of_skin_dqs, table_of_bones, table_of_bonds, table_of_frames,
-                    table_of_obstacles, table_of_supports, table_of_defects, table_of_blowup})
+  for (auto rows :
+       {table_of_all, table_of_body, table_of_particles, table_of_measured_in_particles,
+        table_of_stepped, table_of_values, table_of_surface, table_of_skin_lbs, table_of_skin_dqs,
+        table_of_bones, table_of_bonds, table_of_volume, table_of_frames, table_of_obstacles,
+        table_of_supports, table_of_defects, table_of_blowup})
     for (WrittenArray& row : rows()) table.push_back(std::move(row));
   return table;
 }
@@ -332,7 +347,9 @@ const WrittenArray* find_written(std::string_view series, ArrayPlace place, std:
     return (candidate.series == series || candidate.series == "all") && candidate.place == place &&
            candidate.name == name;
   });
-  return row == table.end() ? nullptr : &*row;
+  if (row != table.end()) return &*row;
+  if (series == "volume" && place == point) return find_written("particles", place, name);
+  return nullptr;
 }
 
 std::string_view place_text(ArrayPlace place) {

@@ -22,7 +22,7 @@ enum class ArrayRole { plain, scalars, vectors };
 
 struct WrittenArray {
   std::string_view series;  ///< "body", "particles", "surface", "bones", "frames", "obstacles",
-                            ///< "defects", "blowup"; "all": each
+                            ///< "volume", "defects", "blowup"; "all": each
   ArrayPlace place;
   std::string_view name;                     ///< "Points" for the coordinates themselves
   std::string_view unit;                     ///< "1" for pure numbers
@@ -35,7 +35,8 @@ struct WrittenArray {
 
 std::span<const WrittenArray> written_arrays();
 
-/// The row of that array in `series` or in all of them, or nullptr.
+/// The row of that array in `series` or in all of them, or nullptr. The points of "volume" have
+/// those of "particles" as well.
 const WrittenArray* find_written(std::string_view series, ArrayPlace place, std::string_view name);
 
 /// "point", "cell", "field".

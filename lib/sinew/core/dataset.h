@@ -43,7 +43,8 @@ struct ComputedColumn {
   std::variant<Computed<std::int32_t>, Computed<double>> values;
 };
 
-enum class CellKind { vertex = 1, line = 2, triangle = 3 };  ///< the value is its points per cell
+/// The value is its points per cell.
+enum class CellKind { vertex = 1, line = 2, triangle = 3, tetrahedron = 4 };
 
 struct Dataset {
   double time = 0;         ///< s

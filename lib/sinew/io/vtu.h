@@ -48,7 +48,8 @@ bool beyond_float32(const Points& points, double radius);
 /// VTK's number for cells of this kind.
 int vtk_type(CellKind kind);
 
-/// Reads a VTU file whose cells are all vertices, all lines of two points or all triangles, in one
+/// Reads a VTU file whose cells are all vertices, all lines of two points, all triangles or
+/// all tetrahedra, in one
 /// piece or, of vertices, in several, which are joined.
 /// Integers beyond Int32 become doubles; a field array becomes one row. Arrays may be of any number
 /// type, as text, base64 or appended data, compressed by ZLib, LZ4 or not, with counts of 32 or 64

@@ -54,8 +54,9 @@ CellKind kind_of(const std::vector<std::int32_t>& types) {
   if (type == vtk_type(CellKind::vertex)) return CellKind::vertex;
   if (type == vtk_type(CellKind::line)) return CellKind::line;
   if (type == vtk_type(CellKind::triangle)) return CellKind::triangle;
+  if (type == vtk_type(CellKind::tetrahedron)) return CellKind::tetrahedron;
   throw vtu_refused("it holds cells of VTK's type " + std::to_string(type) +
-                    ", not vertices, lines or triangles");
+                    ", not vertices, lines, triangles or tetrahedra");
 }
 
 void read_cells(const VtuPiece& piece, std::uint64_t cells, Dataset& data) {

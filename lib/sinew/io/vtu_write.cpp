@@ -322,7 +322,17 @@ bool beyond_float32(const Points& points, double radius) {
 }
 
 int vtk_type(CellKind kind) {
-  return kind == CellKind::vertex ? 1 : kind == CellKind::line ? 3 : 5;
+  switch (kind) {
+    case CellKind::vertex:
+      return 1;
+    case CellKind::line:
+      return 3;
+    case CellKind::triangle:
+      return 5;
+    case CellKind::tetrahedron:
+      return 10;
+  }
+  return 0;
 }
 
 void write_vtu(const std::filesystem::path& path, const Dataset& data, const VtuFormat& format) {

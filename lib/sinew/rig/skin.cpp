@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/parallel.h>
@@ -148,10 +149,14 @@ Mat3 rotation_around(const RestShape& body, const Points& now, std::size_t j) {
   return rotation_part(spread);
 }
 
-Mat3 motion_at(const RestShape& body, const Points& now, std::size_t j) {
+/// Whether the neighbors of particle j define how it is deformed, not only how it turns.
+bool follows_affinely(const RestShape& body, std::size_t j) {
   constexpr std::size_t min_neighbors = 4;
-  if (!body.defined(j) || body.neighbors.of(j).size() < min_neighbors)
-    return rotation_around(body, now, j);
+  return body.defined(j) && body.neighbors.of(j).size() >= min_neighbors;
+}
+
+Mat3 motion_at(const RestShape& body, const Points& now, std::size_t j) {
+  if (!follows_affinely(body, j)) return rotation_around(body, now, j);
   const Mat3 F = deformation_gradient(body, now, j);
   const double J = F.determinant();
   const bool reliable = J > 0.3 && J < 3;
@@ -218,6 +223,28 @@ Skin make_skin(const Points& vertices, const Points& points, double radius,
       drop_unrelated_particles(points, radius, skeleton, binding, supports[i]);
   });
   return skin_of(vertices, points, radius, supports);
+}
+
+Skin without_lone_particles(Skin skin) {
+  std::vector<std::uint32_t> first = {0}, particle;
+  std::vector<double> weight;
+  for (std::size_t i = 0; i + 1 < skin.first.size(); ++i) {
+    const auto kept = [&](std::uint32_t k) {
+      return follows_affinely(skin.shape, skin.weighted[skin.particle[k]]);
+    };
+    double sum = 0;
+    for (std::uint32_t k = skin.first[i]; k < skin.first[i + 1]; ++k)
+      if (kept(k)) sum += skin.weight[k];
+    for (std::uint32_t k = skin.first[i]; k < skin.first[i + 1]; ++k) {
+      if (sum > 0 && !kept(k)) continue;
+      particle.push_back(skin.particle[k]);
+      weight.push_back(sum > 0 ? skin.weight[k] / sum : skin.weight[k]);
+    }
+    first.push_back(static_cast<std::uint32_t>(particle.size()));
+  }
+  skin.first = std::move(first), skin.particle = std::move(particle);
+  skin.weight = std::move(weight);
+  return skin;
 }
 
 Points follow(const Skin& skin, const Points& now) {

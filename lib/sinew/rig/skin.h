@@ -40,6 +40,10 @@ Skin make_skin(const Points& vertices, const Points& points, double radius);
 Skin make_skin(const Points& vertices, const Points& points, double radius,
                const Skeleton& skeleton, const Binding& binding);
 
+/// The same without particles that have too few neighbors to define a deformation, at corners and
+/// in loose packings, where a vertex has others: it then follows every affine motion of the body.
+Skin without_lone_particles(Skin skin);
+
 /// The vertices when the particles are at `now` (m, in the order of the body's points). In
 /// parallel.
 Points follow(const Skin& skin, const Points& now);

@@ -8,6 +8,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
+#include <sinew/material/laws.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/detail/bond_frames.h>
@@ -89,21 +90,29 @@ FrameData::FrameData(const OutputSettings& output, const Body& body, const Frame
                       body.binding)),
       surface_(scene.surface),
       surface_bone_(bones_of_vertices(skin_, body.binding)),
-      obstacles_(scene.obstacles) {
+      obstacles_(scene.obstacles),
+      single_(!output.double_precision) {
+  if (scene.volume)
+    volume_.emplace(*scene.volume, body.rest, body.material.pair.r, body.skeleton, body.binding);
   begin_arrays(output, scene, strain);
 }
 
 FrameData::FrameData(const Prepared& prepared)
     : FrameData(prepared.settings.output, prepared.body,
-                {prepared.surface.triangles, prepared.obstacles, {}, {}, prepared.body.neighbors}) {
-}
+                {prepared.surface.triangles,
+                 prepared.obstacles,
+                 {},
+                 {},
+                 prepared.body.neighbors,
+                 cells_to_write(prepared)}) {}
 
 void FrameData::begin_arrays(const OutputSettings& output, const FrameScene& scene,
                              StrainInFrames strain) {
   const std::string words = strain == StrainInFrames::by_default ? words_for_arrays(output, body_)
                                                                  : words_asked_for(output, body_);
   arrays_ = requested_arrays(words);
-  const bool is_measured = !arrays_.measured.empty() || output.bonds || probed_;
+  const bool with_bonds = output.bonds || (volume_ && bonds_change(body_.material));
+  const bool is_measured = !arrays_.measured.empty() || with_bonds || probed_;
   if (is_measured) measured_.emplace(body_, scene.surface, scene.neighbors);
   try {
     if (is_measured)
@@ -228,14 +237,34 @@ Dataset FrameData::bonds() const {
                        selection_.ids, now_.moment);
 }
 
+/// Whether pairs are apart: by their bonds, or where there are none by the range of forces.
+std::vector<char> FrameData::pairs_apart(const Points& positions) const {
+  const auto& pairs = volume_->pairs();
+  if (!law_of(body_.material).has_bonds)
+    return volume_->apart_beyond(positions, body_.material.pair.b);
+  if (!bonds_change(body_.material)) return std::vector<char>(pairs.size());
+  const BondValues bonds = bond_values(measured_->rest(), now_.measured);
+  std::vector<ParticlePair> broken;
+  for (std::size_t k = 0; k < bonds.ends.size(); ++k)
+    if (bonds.broken[k]) broken.push_back(bonds.ends[k]);
+  std::sort(broken.begin(), broken.end());
+  return apart_if_broken(pairs, broken);
+}
+
+Dataset FrameData::volume() {
+  Dataset particles = evaluated(FrameData::particles());
+  if (single_) particles = in_single_precision(std::move(particles), body_.material.pair.r);
+  return volume_->at(particles, pairs_apart(particles.points));
+}
+
 std::vector<Column> FrameData::measured(std::span<const std::string_view> names) const {
   assert(measured_ && probed_);
   return particle_arrays(measured_->rest(), now_.measured, names);
 }
 
 bool FrameData::is_plain() const {
-  return arrays_.measured.empty() && arrays_.stepped.empty() && selection_.ids.empty() &&
-         body_.material_number.empty() && !body_.grouping;
+  return !volume_ && arrays_.measured.empty() && arrays_.stepped.empty() &&
+         selection_.ids.empty() && body_.material_number.empty() && !body_.grouping;
 }
 
 }  // namespace sinew

@@ -26,6 +26,7 @@
 #include <sinew/rig/skinning.h>
 #include <sinew/run/particle_meter.h>
 #include <sinew/run/support_table.h>
+#include <sinew/run/volume_frames.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/settings/settings.h>
 #include <sinew/stepping/simulation.h>
@@ -62,11 +63,12 @@ struct FrameMoment {
 
 /// What frames contain beside the body.
 struct FrameScene {
-  Triangles surface = {};                 ///< the body's skin at rest
-  std::vector<Triangles> obstacles = {};  ///< of its world, each in its own frame
-  SurfaceLook look = {};                  ///< of the exported surface
-  std::vector<Probe> probes = {};         ///< for probes.csv; none: measured() is not asked for
-  SharedNeighbors neighbors = {};         ///< of the body at rest; none: its own, or searched
+  Triangles surface = {};                  ///< the body's skin at rest
+  std::vector<Triangles> obstacles = {};   ///< of its world, each in its own frame
+  SurfaceLook look = {};                   ///< of the exported surface
+  std::vector<Probe> probes = {};          ///< for probes.csv; none: measured() is not asked for
+  SharedNeighbors neighbors = {};          ///< of the body at rest; none: its own, or searched
+  std::optional<VolumeCells> volume = {};  ///< cells between its particles, where they are written
 };
 
 class FrameData {
@@ -107,6 +109,9 @@ class FrameData {
   Dataset supports() const;
   /// Bonds as lines, where output.bonds asks for them.
   Dataset bonds() const;
+  /// Cells between the particles, where there are some: the same numbers as made of a file of the
+  /// particles. They must have been taken.
+  Dataset volume();
 
   /// Supports and loads at this moment, which refers to this object.
   MachineMoment machine() const;
@@ -118,6 +123,7 @@ class FrameData {
  private:
   void begin_arrays(const OutputSettings& output, const FrameScene& scene, StrainInFrames strain);
   Dataset particles_at(Points positions);
+  std::vector<char> pairs_apart(const Points& positions) const;
 
   const Body& body_;
   ParticleSelection selection_;  ///< what the frames of particles contain
@@ -130,6 +136,8 @@ class FrameData {
   RequestedArrays arrays_;                 ///< additional ones
   std::optional<ParticleMeter> measured_;  ///< which these and bonds are computed from, if any
   FrameMoment now_;
+  std::optional<VolumeFrames> volume_;
+  bool single_;                              ///< files have Float32
   std::vector<std::int32_t> group_, level_;  ///< of the particles that were last asked for
 };
 

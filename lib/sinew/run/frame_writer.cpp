@@ -66,12 +66,15 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
   if (output.bonds)
     bond_series_.emplace(folder_, format_of(output, "bonds", body_.material.pair.r),
                          each(every_, kept));
+  if (scene.volume)
+    volume_series_.emplace(folder_, format_of(output, "volume", body_.material.pair.r),
+                           each(every_, kept));
   begin_checksums();
 }
 
 std::vector<Series*> FrameWriter::all_series() {
   std::vector<Series*> all{&particles_, &skins_, &bones_, &frames_};
-  for (auto* series : {&obstacle_series_, &support_series_, &bond_series_})
+  for (auto* series : {&obstacle_series_, &support_series_, &bond_series_, &volume_series_})
     if (*series) all.push_back(&**series);
   for (const Skinned& skinned : skinned_) all.push_back(skinned.series.get());
   return all;
@@ -125,7 +128,7 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
                          const Prepared& prepared)
     : FrameWriter(folder, output, prepared.body,
                   {prepared.surface.triangles, prepared.obstacles, prepared.look, prepared.probes,
-                   prepared.body.neighbors}) {}
+                   prepared.body.neighbors, cells_to_write(prepared)}) {}
 
 void FrameWriter::add(Simulation& simulation, double time, bool begun) {
   writer_.hand([&] {  // there is no other frame now: each takes as much memory as stepping does
@@ -171,6 +174,7 @@ void FrameWriter::write_probes(const FrameMoment& now) {
 
 void FrameWriter::write_particles(bool begun) {
   if (bond_series_) bond_series_->add(data_.bonds());
+  if (volume_series_) volume_series_->add(data_.volume());
   data_.lend_particles([&](const Dataset& particles) {
     if (begun)
       particles_.finish(particles);

@@ -95,9 +95,9 @@ class FrameWriter {
   std::optional<ProbeTable> probe_table_;      ///< where the scene has some
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;
-  SurfaceLook look_;                       ///< of the exported surface
-  std::vector<std::array<int, 3>> faces_;  ///< of the surface
-  std::optional<Series> bond_series_;      ///< where the scene requests it
+  SurfaceLook look_;                                   ///< of the exported surface
+  std::vector<std::array<int, 3>> faces_;              ///< of the surface
+  std::optional<Series> bond_series_, volume_series_;  ///< where the scene requests it
   std::optional<Checksums> checksums_;
   std::vector<std::size_t> listed_;  ///< frames of each series whose checksums are
   std::atomic<int> written_ = 0;

@@ -31,9 +31,10 @@ bool written_by_a_run(const fs::path& relative) {
       "report\\.html|"
       "metrics(_bones)?\\.(csv|json)|(bones|probes|sections|supports)\\.csv|surface\\.(obj|pc2|glb)"
       "|blowup\\.vtu|"
-      "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values)\\.pvd)("
+      "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values|volume)\\."
+      "pvd)("
       "\\.tmp)?|"
-      "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values)/"
+      "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values|volume)/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
       "pictures/\\.?((compare_)?(body|surface|particles|section|strain|forces|bones)"
@@ -45,9 +46,9 @@ bool written_by_a_run(const fs::path& relative) {
 
 /// Folders within that of a run, and the run's own. Checkpoints first: without them a partly
 /// removed run cannot be resumed.
-constexpr std::array<const char*, 14> run_parts = {
-    "checkpoint", "",         "particles", "surface",  "bones",  "bonds",    "frames",
-    "obstacles",  "supports", "skin_lbs",  "skin_dqs", "values", "pictures", "meshes"};
+constexpr std::array<const char*, 15> run_parts = {
+    "checkpoint", "",         "particles", "surface", "bones",  "bonds",    "frames", "obstacles",
+    "supports",   "skin_lbs", "skin_dqs",  "values",  "volume", "pictures", "meshes"};
 
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;

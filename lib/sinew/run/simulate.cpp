@@ -129,9 +129,13 @@ class Run {
     schedule_ = {prepared.frames, prepared.plan, prepared.load_steps.has_value()};
     const StepChoice steps = prepared.steps;
     const Motion motion = prepared.motion;
-    FrameScene around{std::move(prepared.surface.triangles), std::move(prepared.obstacles),
-                      std::move(prepared.look), std::move(prepared.probes),
-                      prepared.body.neighbors};
+    std::optional<VolumeCells> cells = cells_to_write(prepared);
+    FrameScene around{std::move(prepared.surface.triangles),
+                      std::move(prepared.obstacles),
+                      std::move(prepared.look),
+                      std::move(prepared.probes),
+                      prepared.body.neighbors,
+                      std::move(cells)};
     simulation_.emplace(start(std::move(prepared)));
     prepared = Prepared();  // millions of numbers that nobody needs any more
     if (state) {

@@ -161,7 +161,9 @@ bool needs_volume_shares(const Settings& settings) {
 
 }  // namespace
 
-Filling fill_body(const Settings& settings, const Surface& surface, bool verify) {
+namespace {
+
+PackOptions pack_options(const Settings& settings) {
   const BodyOptions& body = settings.body;
   PackOptions options;
   options.packing = body.packing;
@@ -175,11 +177,26 @@ Filling fill_body(const Settings& settings, const Surface& surface, bool verify)
   options.clearance = body.clearance;
   options.thickness = body.thickness;
   options.volume_shares = needs_volume_shares(settings);
+  return options;
+}
+
+}  // namespace
+
+Filling fill_body(const Settings& settings, const Surface& surface, bool verify) {
+  PackOptions options = pack_options(settings);
   options.verify = verify;
-  Filling filling = with_context(settings, body.radius ? "body.radius" : "body.count",
+  Filling filling = with_context(settings, options.radius ? "body.radius" : "body.count",
                                  [&] { return pack(surface, options); });
   filling.stiffness = stiffness_of(settings, surface, positions_of(filling.particles));
   return filling;
+}
+
+VolumeCells cells_of_body(const Settings& settings, const Surface& surface, const Points& rest,
+                          double radius) {
+  PackOptions options = pack_options(settings);
+  options.count.reset();
+  options.radius = radius;
+  return volume_cells(surface, options, rest);
 }
 
 nlohmann::ordered_json json_of(const ReportValue& value) {

@@ -16,6 +16,7 @@
 #include <sinew/mesh/surface.h>
 #include <sinew/scene/context.h>
 #include <sinew/settings/settings.h>
+#include <sinew/volume/volume_cells.h>
 
 namespace sinew {
 
@@ -57,6 +58,10 @@ SurfaceLook look_of_mesh(const Settings& settings, const Triangles& surface);
 /// Fills it as the scene specifies. Errors name the scene's line. `verify`: checks every site
 /// against CGAL.
 Filling fill_body(const Settings& settings, const Surface& surface, bool verify = false);
+
+/// The tetrahedra of its particles at `rest` (m, by id) with `radius` (m), up to the surface.
+VolumeCells cells_of_body(const Settings& settings, const Surface& surface, const Points& rest,
+                          double radius);
 
 /// A value of the fill's report as JSON, which has null for numbers that are not finite.
 nlohmann::ordered_json json_of(const ReportValue& value);

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 // point of the surface (position, displacement, normal), and integers in addition.
 constexpr double reals_per_particle = 23, wholes_per_particle = 6;
 constexpr double reals_per_bond = 3, wholes_per_bond = 4;
+constexpr double wholes_per_cell = 6;  // four points, end, torn
 constexpr double reals_per_point = 9, wholes_per_point = 1, wholes_per_face = 4;
 // Base64 makes four bytes of three; zlib at level 1 leaves about 0.8 of moving floats.
 constexpr double base64 = 4.0 / 3, kept_by_zlib = 0.8;
@@ -38,6 +39,9 @@ constexpr double memory_with_cells = 1500;
 constexpr double memory_of_strain = 170, memory_of_changing_bonds = 120;  // in double precision
 constexpr double memory_of_branch = 300;  // in double precision: its bonds, and a state beside
 constexpr double memory_of_measuring = 500, memory_of_bonds = 700;  // what frames request
+constexpr double memory_of_volume = 2000;
+// Bodies of 1e4 to 1e5 particles.
+constexpr double volume_cells_per_particle = 6.5, volume_points_per_particle = 1.35;
 constexpr double memory_per_point = 600, memory_beside = 60e6;
 
 double memory_per_particle(const StepperChoice& choice, const Body& body) {
@@ -82,8 +86,15 @@ Needs needs_of(const Prepared& prepared) {
   const double reals =
       bond_lines * reals_per_bond +
       written * (reals_per_particle + reals_of_world + additional_numbers(output, prepared.body)) +
-      surfaces * points * reals_per_point;
-  const double wholes = written * wholes_per_particle + bond_lines * wholes_per_bond +
+      surfaces * points * reals_per_point +
+      (output.volume ? particles : 0) *
+          (volume_points_per_particle *
+               (reals_per_particle + reals_of_world + additional_numbers(output, prepared.body)) +
+           volume_cells_per_particle);
+  const double volume = output.volume ? particles : 0;
+  const double wholes = volume * (volume_points_per_particle * wholes_per_particle +
+                                  volume_cells_per_particle * wholes_per_cell) +
+                        written * wholes_per_particle + bond_lines * wholes_per_bond +
                         surfaces * (points * wholes_per_point + faces * wholes_per_face);
   const double raw = reals * (output.double_precision ? 8 : 4) + wholes * 4;
   const bool compressed = output.encoding == Encoding::zlib || output.encoding == Encoding::lz4;
@@ -99,6 +110,7 @@ Needs needs_of(const Prepared& prepared) {
   const StepperChoice choice = stepper_choice(prepared.settings.solver);
   double per_particle = memory_per_particle(choice, prepared.body);
   if (output.bonds) per_particle += memory_of_bonds;
+  if (output.volume) per_particle += memory_of_volume;
   if (output.bonds || additional_numbers(output, prepared.body) > 0)
     per_particle += memory_of_measuring;
   needs.memory = static_cast<std::uint64_t>(particles * per_particle + points * memory_per_point +

@@ -176,6 +176,11 @@ void check_output(const Settings& settings) {
   check("output.arrays", requested_arrays, settings.output.arrays);
   check("output.only", frame_arrays, settings.output.only);
   check_box(settings, "output.region", settings.output.region);
+  if (settings.output.volume && (settings.output.region || settings.output.inside_every > 1))
+    throw bad_input(place_of(settings, "output.volume",
+                             settings.output.region ? "output.region" : "output.inside_every"),
+                    "the cells of a body are between all of its particles",
+                    "remove output.volume, or what leaves particles out");
   if (settings.output.inside_every > 1 && !is_lattice(settings.body.packing))
     throw bad_input(settings.place("output.inside_every"),
                     "only in lattices do neighbors tell how deep a particle lies",

@@ -202,6 +202,7 @@ struct OutputSettings {
   bool skin_dqs = false;
   bool export_surface = false;
   bool bonds = false;
+  bool volume = false;
   std::string arrays;  ///< see requested_arrays()
   std::string only;    ///< see frame_arrays()
   int every = 1;

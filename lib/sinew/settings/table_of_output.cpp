@@ -28,6 +28,9 @@ std::vector<Field<Settings>> rows::output_rows() {
       field<S>("output", "bonds", SINEW_AT(S, output.bonds), "",
                "also writes the bonds between particles as lines, with length, strain, force and "
                "whether they broke"),
+      field<S>("output", "volume", SINEW_AT(S, output.volume), "",
+               "also writes the body as tetrahedra between particles, up to the surface of the "
+               "mesh, with their volumes and whether they are torn"),
       may_lack("none", field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
                                 "arrays of particles beside the usual ones (strain_eq is one up to "
                                 "200,000 particles), such as \"J, stress\", or all: F, J, stretch, "

@@ -141,6 +141,8 @@ int type_of(CellKind kind) {
       return VTK_LINE;
     case CellKind::triangle:
       return VTK_TRIANGLE;
+    case CellKind::tetrahedron:
+      return VTK_TETRA;
   }
   return VTK_EMPTY_CELL;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/calculix/deck.h>
 
-#include <charconv>
 #include <string>
 #include <string_view>
 
@@ -12,14 +11,6 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t numbers_per_line = 10;
-
-/// ccx reads the first 20 letters of a number.
-std::string short_number(double value) {
-  char digits[32];
-  const auto end =
-      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 11).ptr;
-  return {digits, end};
-}
 
 std::string_view type_of(ElementKind kind) {
   switch (kind) {

@@ -41,6 +41,14 @@ void put_value(std::string& text, Number value) requires std::is_arithmetic_v<Nu
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
+/// CalculiX reads the first 20 letters of a number.
+inline std::string short_number(double value) {
+  char digits[32];
+  const auto end =
+      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 11).ptr;
+  return {digits, end};
+}
+
 inline void put_value(std::string& text, const Vec3& v) {
   put_value(text, v.x()), text += ' ', put_value(text, v.y()), text += ' ', put_value(text, v.z());
 }
