@@ -32,7 +32,7 @@ SERIES = {
         "contact_energy": ("field", "J", ""), "work_of_world": ("field", "J", "")}),
     "surface": (5, {
         "displacement": ("point", "m", X), "normal": ("point", "1", X),
-        "bone": ("point", "1", "")}),
+        "bone": ("point", "1", ""), "strain_eq": ("point", "1", "")}),
     "bones": (3, {
         "axis": ("cell", "1", ""), "bone": ("cell", "1", ""), "parent": ("cell", "1", "")}),
     "frames": (1, {

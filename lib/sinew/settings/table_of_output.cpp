@@ -39,6 +39,12 @@ std::vector<Field<Settings>> rows::output_rows() {
       may_lack("all", field<S>("output", "only", SINEW_AT(S, output.only), "",
                                "the only arrays of particles beside those of output.arrays, such "
                                "as \"displacement, velocity\"")),
+      may_lack("auto",
+               field<S>("output", "skin", SINEW_AT(S, output.skin), "",
+                        "arrays of particles that the surface has as well, such as \"velocity, "
+                        "stress\", or all; beside strain_eq and, of materials with bonds, "
+                        "von_mises, which it has by itself up to 200,000 particles; none: without "
+                        "these two")),
       field<S>("output", "every", SINEW_AT(S, output.every), "",
                "writes the particles in every Nth frame only, from the first on; surface and bones "
                "are in all frames",
