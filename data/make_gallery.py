@@ -26,6 +26,7 @@ RUNS = {
     "twist": ("box_twist", []),
     "arm": ("arm_bend", []),
     "fox": ("creature_walk", []),
+    "elastic_arm": ("arm_bend", ["--set", "material.model=bonded"]),
     "paper": ("box_bend", []),
     "literal": ("paper_literal", []),
     "bend_and_twist": ("box_bend", ["--set", "motion.tracks=[{bone: upper, keys: [{time: 0}, {time: 0.4, euler: "
@@ -43,6 +44,8 @@ PICTURES = {
     "fox": ("fox", ["--view", "surface", "--times", "0.25,0.5,0.75"], "surface_sheet"),
     "strain": ("box_bend", ["--view", "strain", "--times", "0.5,1,1.4"], "strain_sheet"),
     "forces": ("box_bend", ["--view", "forces", "--times", "0.5,1,1.4"], "forces_sheet"),
+    "skin": ("elastic_arm", ["--view", "surface", "--array", "von_mises", "--times", "0.7,1.5"], "surface_sheet"),
+    "halves": ("elastic_arm", ["--view", "halves", "--array", "von_mises", "--times", "0.7,1.5"], "halves_sheet"),
     "compare": ("paper", ["--compare", "bonded", "--view", "strain", "--times", "0,1.4,3"],
                 "compare_strain_sheet"),
     "paper_figure_3": ("bend_and_twist", ["--view", "binding", "--times", "0.2,0.4"], "binding_sheet"),

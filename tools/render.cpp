@@ -67,7 +67,8 @@ void declare_what(OptionList& list, Options& options) {
       .comma_separated()
       .type_name("T,T,...");
   list.add("--array", options.array,
-           "Array shown in color: displacement, velocity, force_pair, strain, J, ...")
+           "Array shown in color, also on the skin: displacement, velocity, force_pair, strain, J, "
+           "...")
       .type_name("NAME");
   list.add(
           "--bones", options.bones,
@@ -296,6 +297,7 @@ int main(int argc, char** argv) {
               "Draws pictures and a movie of a run.",
               {"sinew render out/box_bend", "sinew render out/box_bend --width 1920 --height 1080",
                "sinew render out/box_bend --view strain,section --times 0,0.5,1 --no-movie",
+               "sinew render out/box_bend --view surface,halves --array strain_eq",
                "sinew render out/box_bend --view forces --camera front --colormap inferno",
                "sinew render out/box_bend --view bonds --array force --axes --background black",
                "sinew render out/box_bend --orbit 360 --trace 0,100 --bones upper",

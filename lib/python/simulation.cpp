@@ -130,6 +130,12 @@ class Stepped {
                       "name one, such as stress");
     return std::move(found[0]);
   }
+  /// The same at the vertices of the surface.
+  Column measured_on_surface(const std::string& name) {
+    const Column of_particles = measured(name);
+    if (!skin_) throw bad_input("this body has no surface", "make it from a scene with a mesh");
+    return at_vertices(*skin_, of_particles);
+  }
 
   SimulationState save() const {
     refuse_while_stepping();
@@ -227,6 +233,17 @@ class pybind11::detail::type_caster<sinew::python::Stepped>
     : public pybind11::detail::made_caster<sinew::python::Stepped> {};
 
 namespace sinew::python {
+namespace {
+
+/// A row for each particle or vertex.
+py::array rows_of(Column found) {
+  const py::ssize_t components = found.components;
+  py::array flat =
+      std::visit([](auto& values) -> py::array { return owned(std::move(values)); }, found.values);
+  return components == 1 ? flat : flat.reshape({flat.size() / components, components});
+}
+
+}  // namespace
 
 void bind_simulation(py::module_& module) {
   py::class_<SimulationState>(module, "State");
@@ -243,14 +260,11 @@ void bind_simulation(py::module_& module) {
       .def("set_pose", &S::set_pose, py::arg("rotations"), py::arg("over") = 1.0 / 30)
       .def("energies", &S::energies)
       .def(
-          "array",
-          [](S& self, const std::string& name) {
-            Column found = self.measured(name);
-            const py::ssize_t components = found.components;
-            py::array flat = std::visit(
-                [](auto& values) -> py::array { return owned(std::move(values)); }, found.values);
-            return components == 1 ? flat : flat.reshape({flat.size() / components, components});
-          },
+          "array", [](S& self, const std::string& name) { return rows_of(self.measured(name)); },
+          py::arg("name"))
+      .def(
+          "surface_array",
+          [](S& self, const std::string& name) { return rows_of(self.measured_on_surface(name)); },
           py::arg("name"))
       .def("save", &S::save)
       .def("restore", &S::restore, py::arg("state"))

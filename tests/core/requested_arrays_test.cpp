@@ -2,6 +2,7 @@
 #include <sinew/core/arrays.h>
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <sinew/core/error.h>
 #include <sinew/settings/table.h>
@@ -46,6 +47,51 @@ TEST(RequestedArrays, AreAllNamedByTheHelpOfTheSetting) {
     return;
   }
   FAIL() << "output.arrays is no setting";
+}
+
+TEST(SkinArrays, AreUsualOnesAndThoseThatAreNamed) {
+  const SkinArrays unasked = skin_arrays("");
+  EXPECT_TRUE(unasked.usual);
+  EXPECT_TRUE(unasked.frame.empty() && unasked.requested.measured.empty());
+  const SkinArrays named = skin_arrays("none, stress velocity, force_twist J");
+  EXPECT_FALSE(named.usual);
+  EXPECT_EQ(named.frame, Names{"velocity"});
+  EXPECT_EQ(named.requested.measured, (Names{"J", "stress"}));
+  EXPECT_EQ(named.requested.stepped, Names{"force_twist"});
+  EXPECT_TRUE(skin_arrays("displacement, bone").frame.empty());  // the surface has its own
+}
+
+TEST(SkinArrays, AreAllByOneWordButThoseThatTheSurfaceHasOfItsOwn) {
+  const SkinArrays all = skin_arrays("all");
+  for (const char* own : {"displacement", "bone"})
+    EXPECT_EQ(std::count(all.frame.begin(), all.frame.end(), own), 0) << own;
+  for (const char* name : {"id", "velocity", "force", "broken_bonds"})
+    EXPECT_EQ(std::count(all.frame.begin(), all.frame.end(), name), 1) << name;
+  EXPECT_EQ(all.requested.measured.size(), measured_arrays().size());
+  EXPECT_EQ(all.requested.stepped.size(), stepped_arrays().size());
+}
+
+TEST(SkinArrays, RefuseOtherNamesAndSuggestTheNearest) {
+  try {
+    skin_arrays("velocty");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::bad_input);
+    EXPECT_NE(std::string(error.what()).find("did you mean velocity?"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(SkinArrays, HaveTheUnitsAndComponentsOfTheParticles) {
+  for (const std::string_view name : skin_arrays("all").frame) {
+    const WrittenArray* row = find_written("surface", ArrayPlace::point, name);
+    ASSERT_TRUE(row) << name;
+    EXPECT_EQ(row->unit, find_written("particles", ArrayPlace::point, name)->unit);
+  }
+  EXPECT_EQ(find_written("surface", ArrayPlace::point, "stress")->components.size(), 6U);
+  EXPECT_EQ(find_written("surface", ArrayPlace::point, "von_mises")->unit, "Pa");
+  EXPECT_EQ(find_written("skin_lbs", ArrayPlace::point, "velocity"), nullptr);
+  EXPECT_EQ(find_written("surface", ArrayPlace::field, "kinetic_energy"), nullptr);
 }
 
 }  // namespace sinew::requested_arrays_test

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <sinew/figures/figure_set.h>
@@ -149,6 +150,71 @@ TEST(DrawnRun, SaysHowBondsAreWritten) {
   const RunFolder at = bending_run(folder, false);
   test::expect_bad_input([&] { DrawnRun(at.path.string(), drawn_as("bonds")); },
                          {"has not written its bonds", "--set output.bonds=true"});
+}
+
+/// The vertices' values of an array by the frames' own, and by the particles of a run that has not
+/// written them.
+TEST(DrawnRun, ColorsTheSkinByItsOwnArrayOrByThatOfTheParticles) {
+  const TempFolder folder, without;
+  Settings scene = read_scene(folder.write("scene.yaml", stretching_scene(true)).string());
+  const RunFolder with_skin{folder.path() / "run"}, bare{without.path() / "run"};
+  ASSERT_EQ(simulate(scene, with_skin).exit, Exit::done);
+  scene.output.skin = "none";
+  ASSERT_EQ(simulate(scene, bare).exit, Exit::done);
+  for (const char* array : {"strain_eq", "strain", "von_mises"}) {
+    DrawnRunOptions options = drawn_as("surface");
+    options.array = array;
+    const DrawnRun own(with_skin.path.string(), options), carried(bare.path.string(), options);
+    const Snapshot snapshot = own.snapshot(2, own.view_presets().front());
+    const Snapshot again = carried.snapshot(2, carried.view_presets().front());
+    ASSERT_EQ(snapshot.skin_values.size(), snapshot.surface.points.size());
+    const Dataset file = read_vtu(with_skin.path / "surface/surface_000002.vtu");
+    const auto& written =
+        numbers(file.point_columns, std::string_view(array) == "strain" ? "strain_eq" : array);
+    EXPECT_EQ(snapshot.skin_values, written) << array;
+    const double largest = *std::max_element(written.begin(), written.end());
+    for (std::size_t i = 0; i < written.size(); ++i)
+      ASSERT_NEAR(again.skin_values[i], written[i], 1e-3 * largest) << array << ' ' << i;
+    EXPECT_GT(own.view_presets().front().range.high, 0);
+  }
+}
+
+TEST(DrawnRun, ColorsTheSkinByMagnitudesAndWholeNumbersAndOnlyWhereAsked) {
+  const TempFolder folder;
+  const RunFolder at = bending_run(folder, false);
+  DrawnRunOptions options = drawn_as("surface");
+  const DrawnRun plain(at.path.string(), options);
+  EXPECT_TRUE(plain.snapshot(2, plain.view_presets().front()).skin_values.empty());
+  options.array = "displacement";
+  const DrawnRun moved(at.path.string(), options);
+  const Snapshot snapshot = moved.snapshot(2, moved.view_presets().front());
+  for (std::size_t i = 0; i < snapshot.skin_values.size(); ++i)
+    ASSERT_NEAR(snapshot.skin_values[i],
+                (snapshot.surface.points[i] - moved.files().surface.points[i]).norm(), 1e-6);
+  options.array = "id";  // the particles' alone
+  const DrawnRun ids(at.path.string(), options);
+  for (const double id : ids.snapshot(2, ids.view_presets().front()).skin_values)
+    ASSERT_EQ(id, std::round(id));
+  options.array = "warmth";
+  test::expect_bad_input([&] { DrawnRun(at.path.string(), options); },
+                         {"'warmth'", "strain_eq", "normal", "force_pair"});
+}
+
+TEST(DrawnRun, HalvesTheBodyBetweenSkinAndParticles) {
+  const TempFolder folder;
+  const RunFolder at = bending_run(folder, false);
+  const DrawnRun run(at.path.string(), drawn_as("halves"));
+  const Snapshot snapshot = run.snapshot(0, run.view_presets().front());
+  const Vec3 right = three_quarter_view().row(0);
+  const double middle = right.dot(bounds(positions_of(run.files().body.particles)).center());
+  for (const Vec3& particle : snapshot.particles) EXPECT_GT(right.dot(particle), middle);
+  const double left = static_cast<double>(snapshot.particles.size()) /
+                      static_cast<double>(run.files().body.particles.size());
+  EXPECT_NEAR(left, 0.5, 0.1);
+  EXPECT_EQ(snapshot.values.size(), snapshot.particles.size());
+  ASSERT_EQ(snapshot.skin_sides.size(), snapshot.surface.points.size());
+  for (std::size_t i = 0; i < snapshot.skin_sides.size(); ++i)
+    EXPECT_NEAR(snapshot.skin_sides[i], right.dot(snapshot.surface.points[i]) - middle, 1e-6);
 }
 
 }  // namespace sinew::snapshots_test

@@ -33,6 +33,14 @@ TEST(Figure, shows_its_panels_side_by_side_above_the_caption_and_the_colors) {
   EXPECT_GT(painted(image, 320, 300, 320, 60), 0.05);
 }
 
+TEST(Figure, a_colored_skin_has_a_color_bar) {
+  BentBody body;
+  EXPECT_EQ(painted(figure({body.panel(View::surface)}, body.options), 320, 320, 320, 40), 0);
+  body.snapshot.skin_values.assign(body.snapshot.surface.points.size(), 0.2);
+  for (const View view : {View::surface, View::halves})
+    EXPECT_GT(painted(figure({body.panel(view)}, body.options), 320, 320, 320, 40), 0.05);
+}
+
 TEST(Figure, a_title_stands_above_its_panel) {
   BentBody body;
   const Image without = figure({body.panel(View::both)}, body.options);

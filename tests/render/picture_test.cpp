@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/render/picture.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "helpers.h"
 #include "synthetic_run.h"
 
@@ -273,6 +276,63 @@ TEST(Picture, a_camera_sees_the_whole_of_a_trace) {
   snapshot.traces = {{{{-1, 0, 0}, {5, 0, 0}}, "1"}};
   const Box box = seen(view_from({0, -1, 0}), snapshot);
   EXPECT_NEAR(box.sizes().x(), 6, 1e-12);
+}
+
+/// Its skin colored by the height, without bones.
+Snapshot with_colored_skin() {
+  Snapshot snapshot = synthetic_snapshot(0, 0);
+  snapshot.bones.clear();
+  const Box box = bounds(snapshot.surface.points);
+  for (const Vec3& point : snapshot.surface.points)
+    snapshot.skin_values.push_back(0.5 * (point.z() - box.min().z()) / box.sizes().z());
+  return snapshot;
+}
+
+TEST(Picture, skin_shows_its_values_in_the_colors_of_the_map) {
+  const Snapshot snapshot = with_colored_skin();
+  Painter painter(snapshot.surface, synthetic_scale());
+  PictureOptions options = options_for(snapshot, View::surface);
+  options.camera.view = view_from({0, -1, 0});
+  options.camera.frame = seen(options.camera.view, snapshot);
+  const Image image = painter.draw(snapshot, options);
+  const std::uint8_t *low = image.at(160, 222), *high = image.at(160, 18);
+  EXPECT_GT(low[2], low[0] + 40);    // indigo
+  EXPECT_GT(high[0], high[2] + 40);  // yellow
+}
+
+TEST(Picture, skin_without_a_value_is_gray) {
+  Snapshot snapshot = with_colored_skin();
+  std::fill(snapshot.skin_values.begin(), snapshot.skin_values.end(),
+            std::numeric_limits<double>::quiet_NaN());
+  Painter painter(snapshot.surface, synthetic_scale());
+  const Image image = painter.draw(snapshot, options_for(snapshot, View::surface));
+  const std::uint8_t* middle = image.at(160, 120);
+  EXPECT_LT(*std::max_element(middle, middle + 3) - *std::min_element(middle, middle + 3), 12);
+}
+
+/// In halves, skin is on the one side and particles are on the other; both to the same scale.
+TEST(Picture, halves_show_skin_on_one_side_and_particles_on_the_other) {
+  Snapshot snapshot = with_colored_skin();
+  const PictureOptions options = options_for(snapshot, View::halves);
+  const Vec3 right = options.camera.view.row(0);
+  const double middle = right.dot(bounds(snapshot.surface.points).center());
+  for (const Vec3& point : snapshot.surface.points)
+    snapshot.skin_sides.push_back(right.dot(point) - middle);
+  Painter painter(snapshot.surface, synthetic_scale());
+  const Image whole = painter.draw(snapshot, options);
+  snapshot.particles.clear(), snapshot.values.clear();
+  const Image skin = painter.draw(snapshot, options);
+  EXPECT_GT(painted(skin, 110, 20, 45, 200), 0.5);
+  EXPECT_LT(painted(skin, 165, 20, 155, 200), 0.01);
+  EXPECT_GT(painted(whole, 165, 20, 45, 200), 0.5);
+}
+
+TEST(Picture, refuses_values_that_are_not_one_per_point_of_the_skin) {
+  Snapshot snapshot = with_colored_skin();
+  Painter painter(snapshot.surface, synthetic_scale());
+  const PictureOptions options = options_for(snapshot, View::surface);
+  snapshot.skin_values.pop_back();
+  EXPECT_EQ(error_of([&] { painter.draw(snapshot, options); }).exit(), Exit::bad_input);
 }
 
 }  // namespace sinew::picture_test

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
@@ -206,6 +208,69 @@ TEST(Skin, HasTheSameBitsForEveryThreadCount) {
       EXPECT_EQ(again.near, skin.near);
       EXPECT_EQ(follow(again, moved), expected);
     });
+}
+
+std::vector<double> reals(const Column& column) {
+  return std::get<std::vector<double>>(column.values);
+}
+
+TEST(SkinValues, AreTheParticlesOwnWhereTheseAreAlike) {
+  const Points points = test::fcc_box(5, 5, 9, r);
+  const Skin skin = make_skin(vertices_around(points, 12 * r), points, r);
+  std::vector<double> tensor;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int c = 0; c < 6; ++c) tensor.push_back(c - 2.5);
+  const Column found = at_vertices(skin, {"stress", 6, tensor});
+  EXPECT_EQ(found.name, "stress");
+  EXPECT_EQ(found.components, 6);
+  ASSERT_EQ(reals(found).size(), 6 * skin.rest.size());
+  for (std::size_t k = 0; k < reals(found).size(); ++k)
+    EXPECT_NEAR(reals(found)[k], static_cast<double>(k % 6) - 2.5, 1e-14);
+}
+
+TEST(SkinValues, OfALinearFieldAreExactWhereParticlesLieAroundAPointAlike) {
+  const Points points = test::fcc_box(9, 9, 9, r);
+  Box box;
+  for (const Vec3& point : points) box.extend(point);
+  const auto middle = std::min_element(points.begin(), points.end(), [&](auto& a, auto& b) {
+    return (a - box.center()).norm() < (b - box.center()).norm();
+  });
+  Points vertices = vertices_around(points, r);
+  vertices.push_back(*middle);
+  const Skin skin = make_skin(vertices, points, r);
+  const Vec3 slope(3, -2, 7);
+  std::vector<double> field;
+  for (const Vec3& point : points) field.push_back(1 + slope.dot(point));
+  const std::vector<double> found = reals(at_vertices(skin, column("field", field)));
+  EXPECT_NEAR(found.back(), 1 + slope.dot(*middle), 1e-13);
+  for (std::size_t i = 0; i < vertices.size(); ++i)  // no particle is farther away than that
+    EXPECT_LE(std::abs(found[i] - 1 - slope.dot(vertices[i])), 6 * r * slope.norm());
+}
+
+TEST(SkinValues, AreOfTheParticlesThatHaveOneAndNoneWhereNoneHas) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Points points = test::fcc_box(5, 5, 25, r);
+  const Skin skin = make_skin({points.front(), points.back()}, points, r);
+  std::vector<double> values(points.size(), none);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (i % 2 == 0 && points[i].z() < points.back().z() - 7 * r) values[i] = 4;
+  const std::vector<double> found = reals(at_vertices(skin, column("strain_eq", values)));
+  EXPECT_NEAR(found[0], 4, 1e-14);
+  EXPECT_TRUE(std::isnan(found[1]));
+}
+
+TEST(SkinValues, ThatAreWholeNumbersAreThoseOfTheLargestWeight) {
+  const Points points = test::fcc_box(5, 5, 9, r);
+  const Points vertices = vertices_around(points, r);
+  const Skin skin = make_skin(vertices, points, r);
+  std::vector<std::int32_t> id;
+  for (std::size_t i = 0; i < points.size(); ++i) id.push_back(static_cast<std::int32_t>(7 * i));
+  const Column found = at_vertices(skin, column("id", id));
+  const auto& ids = std::get<std::vector<std::int32_t>>(found.values);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    for (const Vec3& point : points)
+      EXPECT_LE((points[static_cast<std::size_t>(ids[i] / 7)] - vertices[i]).norm(),
+                (point - vertices[i]).norm() + 1e-12);
 }
 
 }  // namespace sinew::skin_test

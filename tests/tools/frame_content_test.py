@@ -5,6 +5,7 @@
 usage: frame_content_test.py BIN SOURCE      folder of the programs, folder of the project
 """
 import csv
+import json
 import shutil
 import sys
 import tempfile
@@ -103,6 +104,36 @@ class FrameContent(unittest.TestCase):
     def measured_whole(self):
         sinew("measure", self.whole, check=0)
         return metrics(self.whole)
+
+    def test_the_surface_has_the_arrays_of_particles_that_are_asked_for(self):
+        usual = {"displacement", "normal", "bone"}
+        for name, words, more in [("plain", {}, {"strain_eq"}),
+                                  ("none", {"skin": "none"}, set()),
+                                  ("few", {"only": "id"}, {"strain_eq"}),
+                                  ("asked", {"skin": "velocity, stress"}, {"strain_eq", "velocity", "stress"})]:
+            run = self.simulated("skin_" + name, **words)
+            for path in frames(run, "surface"):
+                self.assertEqual(set(meshio.read(path).point_data), usual | more)
+        surface = meshio.read(frames(run, "surface")[-1])
+        particles = meshio.read(frames(run, "particles")[-1])
+        self.assertEqual(surface.point_data["stress"].shape, (len(surface.points), 6))
+        for array in ["strain_eq", "velocity"]:  # means lie between what they are of
+            self.assertTrue(numpy.isfinite(surface.point_data[array]).all())
+            self.assertTrue((surface.point_data[array].max(axis=0) <= particles.point_data[array].max(axis=0)).all())
+            self.assertTrue((surface.point_data[array].min(axis=0) >= particles.point_data[array].min(axis=0)).all())
+        units = json.loads((run / "run.json").read_text())["arrays"]["surface"]
+        self.assertEqual((units["stress"]["unit"], units["velocity"]["unit"]), ("Pa", "m/s"))
+
+    def test_the_surface_has_the_same_arrays_where_frames_lack_particles(self):
+        run = self.simulated("skin_every", every=4, skin="force, J")
+        whole = self.simulated("skin_whole", skin="force, J")
+        for part, of_whole in zip(frames(run, "surface"), frames(whole, "surface"), strict=True):
+            self.assertEqual(part.read_bytes(), of_whole.read_bytes())
+
+    def test_an_array_that_particles_lack_is_refused_for_the_surface(self):
+        done = sinew("simulate", self.scene, "-o", self.runs / "refused", "--set", "output.skin=velocty")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("did you mean velocity?", done.stderr)
 
     def test_what_a_particle_has_no_value_of_is_not_a_number(self):
         for words, name, some in [(["binding.core_radius=0.05"], "pose_error", True),

@@ -85,7 +85,7 @@ class ViewPreset(unittest.TestCase):
             self.assertIn(part, lines[0])
 
     def test_every_view_leaves_its_pictures_and_a_sheet(self):
-        views = ["surface", "particles", "section", "strain", "forces", "bones"]
+        views = ["surface", "particles", "section", "strain", "halves", "forces", "bones"]
         done = self.render("--view", ",".join(views), "--times", "0.1,0.2", "--no-movie")
         self.assertEqual(done.returncode, 0, done.stderr)
         expected = [f"{view}_{part}.png" for view in views for part in ("000002", "000004", "sheet")]
@@ -93,6 +93,31 @@ class ViewPreset(unittest.TestCase):
         pixels = {name: (self.pictures / name).read_bytes() for name in expected}
         self.assertEqual(len(set(pixels.values())), len(expected))  # each shows something else
         self.assertEqual(size_of(self.pictures / "strain_000004.png"), (320, 200))
+
+    def test_an_array_colors_the_skin_with_a_legend(self):
+        """Also one that the surface of the run lacks, here by its particles."""
+        foot = {}
+        for array in [None, "strain_eq", "strain", "velocity", "von_mises", "bone"]:
+            words = ["--array", array] if array else []
+            done = self.render("--view", "surface", "--times", "0.2", "--no-movie", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            raw = subprocess.run(["ffmpeg", "-loglevel", "error", "-i", self.pictures / "surface_000004.png", "-f",
+                                  "rawvideo", "-pix_fmt", "rgb24", "-"], capture_output=True, check=True).stdout
+            rows = [raw[i:i + 320 * 3] for i in range(0, len(raw), 320 * 3)]
+            colored = lambda row: sum(max(row[i:i + 3]) - min(row[i:i + 3]) > 60 for i in range(0, len(row), 3))
+            foot[array] = (max(map(colored, rows[-40:])), sum(map(colored, rows[:-40])))
+        self.assertEqual(foot[None][0], 0)
+        for array, (legend, body) in foot.items():
+            if array:
+                self.assertGreater(legend, 80, array)
+                self.assertGreater(body, 2 * foot[None][1] + 500, array)
+
+    def test_an_array_that_is_nowhere_is_refused_naming_those_that_are(self):
+        for view in ["surface", "halves", "body"]:
+            self.assert_one_line(self.render("--view", view, "--array", "warmth", "--no-movie"), 2, "'warmth'",
+                                 "strain_eq", "velocity")
+            self.assert_one_line(self.render("--view", view, "--array", "stress_kirchhoff", "--no-movie"), 2,
+                                 "stress_kirchhoff", "velocity")
 
     def test_camera_colors_range_and_array_change_the_picture(self):
         ways = [[], ["--camera", "front"], ["--camera", "1,0,0.5"], ["--camera", "top"],

@@ -153,6 +153,19 @@ class Series(unittest.TestCase):
             self.assertLess(math.dist(turned(q, [1, 0, 0]), axis), 1e-6)
 
 
+class Skin(unittest.TestCase):
+    def test_the_surface_has_the_strain_of_the_particles(self):
+        for time, _ in (rows_of("surface")[0], rows_of("surface")[-1]):
+            skin, particles = (fetched(opened(series), time).GetPointData().GetArray("strain_eq")
+                               for series in ("surface", "particles"))
+            self.assertEqual(skin.GetInformation().Get(vtkDataArray.UNITS_LABEL()), "1")
+            self.assertTrue(all(map(math.isfinite, values(skin))))
+            if particles:  # what several ranks have written lacks it
+                self.assertLessEqual(max(values(skin)), max(values(particles)))
+                self.assertGreaterEqual(min(values(skin)), min(values(particles)))
+        self.assertGreater(max(values(skin)), 0.01)
+
+
 class Picking(unittest.TestCase):
     def test_threshold_on_bone_selects_its_particles(self):
         source = opened("particles")

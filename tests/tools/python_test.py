@@ -220,6 +220,9 @@ class Made(unittest.TestCase):
         self.assertEqual((strain.shape, stress.shape), ((len(simulation.positions), 6),) * 2)
         self.assertGreater(numpy.nanmax(abs(strain)), 1e-3)
         self.assertEqual(simulation.array("J").shape, (len(simulation.positions),))
+        on_skin = simulation.surface_array("J")
+        self.assertEqual(on_skin.shape, (len(simulation.surface),))
+        self.assertLessEqual(on_skin.max(), numpy.nanmax(simulation.array("J")))
         layers = simulation.array("surface_layer")
         self.assertEqual(layers.dtype, numpy.int32)
         self.assertEqual(set(layers), {1, 2})  # of three half-planes across

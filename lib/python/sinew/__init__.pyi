@@ -56,6 +56,8 @@ class Simulation:
     def array(self, name: str) -> NDArray[np.float64]:
         """An array of the particles at this moment, as output.arrays names it: "stress" (n, 6), Pa, "strain", ... The
         body needs a surface."""
+    def surface_array(self, name: str) -> NDArray[np.float64]:
+        """The same at the vertices of the surface: means by the weights with which they follow the particles."""
     def save(self) -> State:
         """The present moment, from which restore() goes on with the same bits."""
     def restore(self, state: State) -> None: ...

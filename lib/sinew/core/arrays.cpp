@@ -181,7 +181,17 @@ std::vector<WrittenArray> table_of_surface_in(const char* series, const char* of
 }
 
 std::vector<WrittenArray> table_of_surface() {
-  return table_of_surface_in("surface", "point of the input surface, deformed");
+  std::vector<WrittenArray> rows =
+      table_of_surface_in("surface", "point of the input surface, deformed");
+  rows.push_back({"surface", point, "strain_eq", "1", one, real, plain,
+                  "equivalent strain of the particles around it, up to 200,000 of them; like every "
+                  "other array of particles by output.skin",
+                  true});
+  rows.push_back({"surface", point, "von_mises", "Pa", one, real, plain,
+                  "von Mises stress of the particles around it, if the material has bonds; "
+                  "likewise",
+                  true});
+  return rows;
 }
 
 std::vector<WrittenArray> table_of_skin_lbs() {
@@ -322,6 +332,13 @@ std::vector<std::string_view> names_of(const std::vector<WrittenArray>& rows) {
   return names;
 }
 
+std::vector<std::string_view> names_in_frames() {
+  std::vector<std::string_view> names;
+  for (const WrittenArray& row : table_of_particles())
+    if (row.place == point && row.name != "Points") names.push_back(row.name);
+  return names;
+}
+
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;
   constexpr std::string_view between = ", \t";
@@ -348,7 +365,8 @@ const WrittenArray* find_written(std::string_view series, ArrayPlace place, std:
            candidate.name == name;
   });
   if (row != table.end()) return &*row;
-  if (series == "volume" && place == point) return find_written("particles", place, name);
+  if ((series == "surface" || series == "volume") && place == point)
+    return find_written("particles", place, name);
   return nullptr;
 }
 
@@ -367,9 +385,8 @@ std::span<const std::string_view> stepped_arrays() {
 }
 
 std::vector<std::string_view> frame_arrays(std::string_view text) {
-  std::vector<std::string_view> names, found;
-  for (const WrittenArray& row : table_of_particles())
-    if (row.place == point && row.name != "Points") names.push_back(row.name);
+  const std::vector<std::string_view> names = names_in_frames();
+  std::vector<std::string_view> found;
   for (const std::string_view word : words_of(text)) {
     const auto name = std::find(names.begin(), names.end(), word);
     if (name == names.end())
@@ -398,6 +415,34 @@ RequestedArrays requested_arrays(std::string_view text) {
     if (word != "all" && std::find(names.begin(), names.end(), word) == names.end())
       throw bad_input("there is no array " + shown(word) + " to ask for",
                       suggestion(word, names) + " (or all)");
+  return found;
+}
+
+SkinArrays skin_arrays(std::string_view text) {
+  SkinArrays found;
+  std::string requested;
+  const std::vector<std::string_view> in_frames = names_in_frames();
+  std::vector<std::string_view> names = in_frames;
+  for (const auto more : {measured_arrays(), stepped_arrays()})
+    names.insert(names.end(), more.begin(), more.end());
+  const auto is_in = [](const std::vector<std::string_view>& some, std::string_view word) {
+    return std::find(some.begin(), some.end(), word) != some.end();
+  };
+  const std::vector<std::string_view> words = words_of(text);
+  for (const std::string_view word : words) {
+    if (word == "none")
+      found.usual = false;
+    else if (word == "all" || (is_in(names, word) && !is_in(in_frames, word)))
+      requested += ' ' + std::string(word);
+    else if (!is_in(names, word))
+      throw bad_input("particles have no array " + shown(word) + " for the surface",
+                      suggestion(word, names) + " (or all, none)");
+  }
+  found.requested = requested_arrays(requested);
+  const std::vector<std::string_view> own = names_of(table_of_surface_in("surface", ""));
+  for (const std::string_view name : in_frames)
+    if ((found.requested.all || is_in(words, name)) && !is_in(own, name))
+      found.frame.push_back(name);
   return found;
 }
 

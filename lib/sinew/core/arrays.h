@@ -36,7 +36,7 @@ struct WrittenArray {
 std::span<const WrittenArray> written_arrays();
 
 /// The row of that array in `series` or in all of them, or nullptr. The points of "volume" have
-/// those of "particles" as well.
+/// those of "particles" as well, and the surface may: see skin_arrays().
 const WrittenArray* find_written(std::string_view series, ArrayPlace place, std::string_view name);
 
 /// "point", "cell", "field".
@@ -61,5 +61,16 @@ std::vector<std::string_view> frame_arrays(std::string_view words);
 /// Picks those that a text names, with commas or spaces between them, or "all". Throws bad input
 /// for any other name, with the nearest one.
 RequestedArrays requested_arrays(std::string_view words);
+
+struct SkinArrays {
+  bool usual = true;  ///< those that the surface has unasked: strain_eq, von_mises
+  std::vector<std::string_view> frame;  ///< see frame_arrays()
+  RequestedArrays requested;
+};
+
+/// Picks the arrays of particles, of each frame and on request, that the surface shall have as
+/// well. "none": without those that it has unasked; "all": each. Names that the surface has of its
+/// own are left out. Throws bad input for any other name, with the nearest one.
+SkinArrays skin_arrays(std::string_view words);
 
 }  // namespace sinew

@@ -2,19 +2,14 @@
 #include <sinew/figures/snapshots.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <string_view>
 
-#include <sinew/core/arrays.h>
-#include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/figures/scene_picture.h>
-#include <sinew/metrics/pair_forces.h>
-#include <sinew/metrics/particle_values.h>
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
 
@@ -44,100 +39,6 @@ std::vector<SnapshotForce> arrows_of(const std::vector<ShownForce>& forces) {
   for (const ShownForce& one : forces) arrows.push_back({one.from, one.along, one.is_load});
   return arrows;
 }
-
-struct MeasuredArray {
-  std::string_view name, unit;
-  std::vector<double> ParticleValues::*values;
-};
-
-constexpr std::array<MeasuredArray, 6> measured_arrays = {{
-    {"strain", "", &ParticleValues::strain},
-    {"stretch", "", &ParticleValues::stretch},
-    {"J", "", &ParticleValues::J},
-    {"D2min", "m^2", &ParticleValues::D2min},
-    {"von_mises", "Pa", &ParticleValues::von_mises},
-    {"speed", "m/s", &ParticleValues::speed},
-}};
-
-const MeasuredArray* find_measured(const std::string& name) {
-  for (const MeasuredArray& array : measured_arrays)
-    if (array.name == name) return &array;
-  return nullptr;
-}
-
-Error unknown(const std::string& name) {
-  std::vector<std::string_view> names;
-  names.reserve(measured_arrays.size());
-  for (const MeasuredArray& array : measured_arrays) names.push_back(array.name);
-  for (const WrittenArray& array : written_arrays())
-    if (array.series == "particles" && array.place == ArrayPlace::point && array.name != "Points")
-      names.push_back(array.name);
-  return bad_input("particles have no array " + shown(name), suggestion(name, names));
-}
-
-Dataset columns_of(const RunFiles& run, std::size_t index, const std::string& name) {
-  const auto file = run.folder.path / run.particle_rows[index].file;
-  Dataset data = read_vtu(file, {name.c_str()});
-  if (!find(data.point_columns, name))
-    throw bad_input(Place{file.string()}, "has no array " + shown(name),
-                    "choose another one; sinew info FILE lists them");
-  if (data.points.size() != run.body.particles.size())
-    throw bad_input(Place{file.string()}, "has another number of particles than the run",
-                    "run the scene again with --force");
-  return data;
-}
-
-}  // namespace
-
-DrawnValues::DrawnValues(const RunFiles& run, const std::string& name) : run_(&run), name_(name) {
-  if (const MeasuredArray* array = find_measured(name)) {
-    unit_ = array->unit;
-    rest_ = std::make_shared<RestBody>(rest_body(measured_body(run)));
-    if (name == "von_mises" && !knows_forces(*rest_, {}) && read_frame(run, 0).von_mises.empty())
-      throw bad_input("the forces of this run do not follow from its positions alone",
-                      "run the scene with output.arrays von_mises");
-    return;
-  }
-  const WrittenArray* array = find_written("particles", ArrayPlace::point, name);
-  if (!array || name == "Points") throw unknown(name);
-  if (array->unit != "1") unit_ = array->unit;
-  components_ = std::max<int>(1, static_cast<int>(array->components.size()));
-}
-
-std::vector<double> DrawnValues::measured(const RunFrame& frame) const {
-  const FrameState state = measured_frame(frame);
-  return particle_values(*rest_, state).*find_measured(name_)->values;
-}
-
-std::vector<double> DrawnValues::at(std::size_t index, const RunFrame& frame) const {
-  if (rest_) return measured(frame);
-  if (name_ == "displacement") return frame.displacement;
-  if (components_ == 1) {
-    const Dataset data = columns_of(*run_, index, name_);
-    const Column& column = *find(data.point_columns, name_);
-    if (const auto* whole = std::get_if<std::vector<std::int32_t>>(&column.values))
-      return {whole->begin(), whole->end()};
-    return numbers(data.point_columns, name_);
-  }
-  std::vector<double> sizes;
-  for (const Vec3& vector : drawn_vectors(*run_, index, name_)) sizes.push_back(vector.norm());
-  return sizes;
-}
-
-DrawnValues::Range DrawnValues::range_of(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return value != value; });
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::size_t outliers = values.size() / 100;
-  const double low = values[outliers], high = values[values.size() - 1 - outliers];
-  return {values.front() >= 0 && low < high / 2 ? 0 : low, high};
-}
-
-Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& name) {
-  return vectors(columns_of(run, index, name).point_columns, name);
-}
-
-namespace {
 
 constexpr std::size_t max_arrows = 900;  // more would hide each other
 constexpr double longest_arrow = 0.25;   // of the body's longest side
@@ -210,12 +111,18 @@ DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
 DrawnView DrawnRun::applied(const ViewPreset& preset) const {
   const std::string array = options_.array.empty() ? array_of(preset, run_) : options_.array;
   if (preset.view == View::lines)
-    return {preset, DrawnValues(run_, "displacement"), DrawnBonds(run_, array), {}};
-  if (preset.view != View::binding) return {preset, DrawnValues(run_, array), {}, {}};
+    return {preset, DrawnValues(run_, "displacement"), {}, DrawnBonds(run_, array), {}};
+  if (preset.view != View::binding) {
+    DrawnView drawn{preset, DrawnValues(run_, array), {}, {}, {}};
+    const bool has_skin = preset.view == View::surface || preset.name == "body";
+    if (preset.view == View::halves || (has_skin && !options_.array.empty()))
+      drawn.skin.emplace(run_, drawn.values);
+    return drawn;
+  }
   if (!options_.array.empty())
     throw bad_input("the view binding shows forces of bones, not the array " + shown(array),
                     "leave out --array, or choose another view: --view forces");
-  return {preset, DrawnValues(run_, array), {}, DrawnPulls(run_)};
+  return {preset, DrawnValues(run_, array), {}, {}, DrawnPulls(run_)};
 }
 
 void DrawnRun::select_bones() {
@@ -246,8 +153,15 @@ DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,
       if (is_selected(pull.particle)) strongest = std::max(strongest, pull.strongest());
     return {0, strongest};
   }
-  if (!drawn.bonds) return DrawnValues::range_of(drawn.values.at(index, frame));
   std::vector<double> values;
+  if (!drawn.bonds) {
+    if (drawn.preset.view != View::surface || !drawn.skin) values = drawn.values.at(index, frame);
+    if (drawn.skin) {
+      const std::vector<double> of_skin = drawn.skin->at(index, frame);
+      values.insert(values.end(), of_skin.begin(), of_skin.end());
+    }
+    return DrawnValues::range_of(std::move(values));
+  }
   for (const DrawnBond& bond : drawn.bonds->at(index)) values.push_back(bond.value);
   return DrawnValues::range_of(std::move(values));
 }
@@ -303,19 +217,12 @@ std::vector<KeyMoment> DrawnRun::key_moments() const {
   return sinew::key_moments(overview_, run_.body.particles.radius);
 }
 
-/// The cut is vertical, across the viewer's direction at rest, and deforms with the body, so that
-/// the same particles are seen at all times.
-void DrawnRun::cut_open(Snapshot& snapshot) const {
+/// Keeps the particles that are there at rest.
+void DrawnRun::keep(Snapshot& snapshot, const std::function<bool(const Vec3&)>& is_kept) const {
   const Points rest = positions_of(run_.body.particles);
-  const Vec3 back = options_.view.row(2);
-  Vec3 across = Vec3::UnitY();
-  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())})
-    if (std::abs(axis.dot(back)) > std::abs(across.dot(back))) across = axis;
-  if (across.dot(back) < 0) across = -across;
-  const double middle = across.dot(bounds(rest).center());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    if (across.dot(rest[i]) > middle) continue;
+    if (!is_kept(rest[i])) continue;
     snapshot.particles[kept] = snapshot.particles[i];
     if (!snapshot.marks.empty()) snapshot.marks[kept] = snapshot.marks[i];
     snapshot.values[kept++] = snapshot.values[i];
@@ -323,6 +230,37 @@ void DrawnRun::cut_open(Snapshot& snapshot) const {
   snapshot.particles.resize(kept);
   if (!snapshot.marks.empty()) snapshot.marks.resize(kept);
   snapshot.values.resize(kept);
+}
+
+/// The cut is vertical, across the viewer's direction at rest, and deforms with the body, so that
+/// the same particles are seen at all times.
+void DrawnRun::cut_open(Snapshot& snapshot) const {
+  const Vec3 back = options_.view.row(2);
+  Vec3 across = Vec3::UnitY();
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())})
+    if (std::abs(axis.dot(back)) > std::abs(across.dot(back))) across = axis;
+  if (across.dot(back) < 0) across = -across;
+  const double middle = across.dot(bounds(positions_of(run_.body.particles)).center());
+  keep(snapshot, [&](const Vec3& rest) { return across.dot(rest) <= middle; });
+}
+
+/// The skin left of the plane through the body's middle that the viewer sees edge-on at rest, the
+/// particles right of it. It deforms with the body, too.
+void DrawnRun::halve(Snapshot& snapshot) const {
+  const Vec3 right = options_.view.row(0);
+  const double middle = right.dot(bounds(positions_of(run_.body.particles)).center());
+  for (const Vec3& rest : run_.surface.points)
+    snapshot.skin_sides.push_back(right.dot(rest) - middle);
+  keep(snapshot, [&](const Vec3& rest) { return right.dot(rest) > middle; });
+}
+
+void DrawnRun::color_skin(Snapshot& snapshot, std::vector<double> values) const {
+  snapshot.skin_values = std::move(values);
+  for (std::size_t i = 0; i < snapshot.skin_values.size(); ++i) {
+    const std::int32_t bone = run_.surface_bone[i];
+    if (!selected_.empty() && (bone < 0 || !selected_[static_cast<std::size_t>(bone)]))
+      snapshot.skin_values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const {
@@ -395,19 +333,24 @@ void DrawnRun::add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView&
 
 Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   RunFrame frame = read_frame(run_, index);
-  std::vector<double> values = drawn.values.at(index, frame);
+  const bool shows_particles = drawn.preset.view != View::surface || !drawn.skin;
+  std::vector<double> values, of_skin;
+  if (shows_particles) values = drawn.values.at(index, frame);
+  if (drawn.skin) of_skin = drawn.skin->at(index, frame);
   std::vector<DrawnPull> pulls;
   if (drawn.pulls) pulls = drawn.pulls->at(frame);
   Snapshot snapshot = snapshot_of(run_, std::move(frame), overview_.angle[index]);
   snapshot.values = std::move(values);
   snapshot.marks = marks_;
   show_selected(snapshot);
+  color_skin(snapshot, std::move(of_skin));
   add_obstacles(snapshot, index);
   snapshot.forces = arrows_of(forces_->at(index));
   add_traces(snapshot, index);
   if (drawn.pulls) add_pulls(snapshot, pulls, drawn);
   if (drawn.bonds) add_bonds(snapshot, index, drawn);
   if (drawn.preset.cut_open) cut_open(snapshot);
+  if (drawn.preset.view == View::halves) halve(snapshot);
   if (drawn.preset.view == View::arrows) add_arrows(snapshot, index, drawn);
   return snapshot;
 }

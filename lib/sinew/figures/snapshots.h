@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frames of a run as snapshots to be drawn, with the values that color the particles.
+// The frames of a run as snapshots to be drawn, with the values that color particles and skin.
 //
 //     const DrawnRun run("out/bend", {.presets = {view_preset_named("body")}});
 //     const Snapshot last = run.snapshot(run.files().frames() - 1, run.view_presets().front());
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <sinew/figures/drawn_values.h>
 #include <sinew/figures/key_moments.h>
 #include <sinew/figures/view_presets.h>
-#include <sinew/metrics/rest_body.h>
 #include <sinew/render/snapshot.h>
 #include <sinew/run/drawn_bonds.h>
 #include <sinew/run/drawn_pulls.h>
@@ -24,42 +24,6 @@ namespace sinew {
 /// `angle` of the bones, for the caption, rad. Bones have their lengths in the frame.
 Snapshot snapshot_of(const RunFiles& run, RunFrame frame, double angle);
 
-// The particle quantities shown in color: those a run has written, and those measured from its
-// frames.
-
-class DrawnValues {
- public:
-  /// `name`: an array of the particles, or strain, stretch, J, D2min, von_mises, speed. Throws bad
-  /// input for other names, suggesting the nearest.
-  DrawnValues(const RunFiles& run, const std::string& name);
-
-  const std::string& name() const { return name_; }
-  const std::string& unit() const { return unit_; }  ///< empty for pure numbers
-
-  /// One per particle in the written order; the magnitudes of vectors. `frame` is the run's frame
-  /// `index`.
-  std::vector<double> at(std::size_t index, const RunFrame& frame) const;
-
-  /// The values at the ends of the color scale: the 1st and 99th percentile, so that a few escaped
-  /// particles do not determine it; from zero where that is near.
-  struct Range {
-    double low = 0, high = 0;
-  };
-  static Range range_of(std::vector<double> values);
-
- private:
-  std::vector<double> measured(const RunFrame& frame) const;
-
-  const RunFiles* run_;
-  std::string name_, unit_;
-  int components_ = 1;
-  std::shared_ptr<const RestBody> rest_;  ///< for what is measured
-};
-
-/// A vector array of the particles of a frame. Throws bad input where the run has none of that
-/// name.
-Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& name);
-
 // A run as a sequence of snapshots, and the quantities over all frames that the first picture
 // needs.
 
@@ -67,6 +31,7 @@ Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& 
 struct DrawnView {
   ViewPreset preset;
   DrawnValues values;
+  std::optional<DrawnSkin> skin;    ///< where the skin is colored
   std::optional<DrawnBonds> bonds;  ///< where the preset's view is of lines: colored instead
   std::optional<DrawnPulls> pulls;  ///< where it is of the binding
   DrawnValues::Range range = {};    ///< of what is colored or drawn as arrows, over all frames
@@ -126,7 +91,10 @@ class DrawnRun {
   void add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
   void add_pulls(Snapshot& snapshot, const std::vector<DrawnPull>& pulls,
                  const DrawnView& drawn) const;
+  void keep(Snapshot& snapshot, const std::function<bool(const Vec3&)>& is_kept) const;
   void cut_open(Snapshot& snapshot) const;
+  void halve(Snapshot& snapshot) const;
+  void color_skin(Snapshot& snapshot, std::vector<double> values) const;
   void add_obstacles(Snapshot& snapshot, std::size_t index) const;
   void add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
 

@@ -12,9 +12,12 @@
 namespace sinew {
 namespace {
 
-constexpr std::array<ViewPreset, 9> all_view_presets = {{
+constexpr std::array<ViewPreset, 10> all_view_presets = {{
     {"body", View::both, false, deformation, "particles within the skin's edges, and the bones"},
-    {"surface", View::surface, false, "displacement", "the skin, the bones shining through"},
+    {"surface", View::surface, false, "displacement",
+     "the skin, in color where an array is named, the bones shining through"},
+    {"halves", View::halves, false, "strain",
+     "half of the skin, beside it the particles, in color"},
     {"particles", View::particles, false, deformation, "spheres of their true size"},
     {"section", View::both, true, deformation, "the body cut open along its middle"},
     {"strain", View::particles, false, "strain", "particles by their equivalent strain"},

@@ -119,9 +119,11 @@ void add_surroundings(ParticleValues& out, const RestBody& rest, const FrameStat
   });
 }
 
-}  // namespace
+/// Whether an array is of the particles around each one, which take most of the time to find.
+bool is_of_surroundings(std::string_view name) { return name == "von_mises" || name == "turnover"; }
 
-ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
+/// All values; those of the surroundings only where they are asked for.
+ParticleValues values_of(const RestBody& rest, const FrameState& state, bool of_surroundings) {
   ParticleValues out;
   const std::size_t n = rest.particles();
   for (auto* values : {&out.displacement, &out.speed, &out.J, &out.strain, &out.stretch, &out.D2min,
@@ -132,9 +134,15 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
   add_motion(out, rest, state);
   add_deformation(out, rest.shape, state.positions);
   add_pose(out, rest, state);
-  add_surroundings(out, rest, state);
+  if (of_surroundings) add_surroundings(out, rest, state);
   out.weight = rest.weight;
   return out;
+}
+
+}  // namespace
+
+ParticleValues particle_values(const RestBody& rest, const FrameState& state) {
+  return values_of(rest, state, true);
 }
 
 namespace {
@@ -255,7 +263,9 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
     else if (name == "surface_layer")
       columns.push_back(column(std::string(name), rest.layer));
     else {
-      if (values.J.empty()) values = particle_values(rest, state);
+      if (values.J.empty())
+        values =
+            values_of(rest, state, std::any_of(names.begin(), names.end(), is_of_surroundings));
       columns.push_back(scalar(name, values));
     }
   }
@@ -273,6 +283,12 @@ const char* why_undefined(std::string_view name) {
 }
 
 }  // namespace
+
+bool has_strain(const RestBody& rest) {
+  std::size_t i = 0;
+  while (i < rest.particles() && !rest.shape.defined(i)) ++i;
+  return i < rest.particles();
+}
 
 FrameState state_at_rest(const RestBody& rest) {
   FrameState state;

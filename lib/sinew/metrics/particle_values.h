@@ -51,6 +51,9 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state);
 std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
                                     std::span<const std::string_view> names);
 
+/// Whether the neighbors of some particle define its deformation.
+bool has_strain(const RestBody& rest);
+
 /// The body at rest as a frame, without velocities.
 FrameState state_at_rest(const RestBody& rest);
 

@@ -65,7 +65,7 @@ Image figure(const std::vector<Panel>& panels, const FigureOptions& options) {
                 tripod_size(layout.wide, layout.high));
   write_text(image, panels.front().snapshot->caption, 2 * layout.margin, layout.foot, layout.words);
   if (std::none_of(panels.begin(), panels.end(),
-                   [](const Panel& panel) { return shows_values(panel.view); }))
+                   [](const Panel& panel) { return shows_values(panel.view, *panel.snapshot); }))
     return image;
   const int bar = std::min(options.width / 3, 3 * options.height / 5);
   draw_color_bar(image, panels.front().painter->scale(), options.width - 2 * layout.margin - bar,
@@ -143,8 +143,9 @@ void lay_columns(SheetLayout& layout, const SheetOptions& options) {
 }
 
 bool show_values(const std::vector<SheetRow>& rows) {
-  return std::any_of(rows.begin(), rows.end(),
-                     [](const SheetRow& row) { return shows_values(row.view); });
+  return std::any_of(rows.begin(), rows.end(), [](const SheetRow& row) {
+    return shows_values(row.view, row.snapshots->front());
+  });
 }
 
 SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options) {

@@ -23,6 +23,10 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
     throw bad_input("a snapshot has not one value per particle", "give one each, or none");
   if (!snapshot.marks.empty() && snapshot.marks.size() != snapshot.particles.size())
     throw bad_input("a snapshot has not one mark per particle", "give one each, or none");
+  for (const auto* values : {&snapshot.skin_values, &snapshot.skin_sides})
+    if (!values->empty() && values->size() != snapshot.surface.points.size())
+      throw bad_input("a snapshot has not one value per point of its surface",
+                      "give one each, or none");
   for (const int point : skin.source)
     if (point >= static_cast<int>(snapshot.surface.points.size()))
       throw bad_input("a snapshot's surface has fewer points than at rest",
@@ -155,12 +159,14 @@ Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool s
   return picture;
 }
 
-Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
-  add_skin(stage_.renderer(), snapshot, skin_);
+Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes, bool beside_particles) {
+  add_skin(stage_.renderer(), snapshot, skin_, scale_);
+  if (beside_particles) add_particles(stage_.renderer(), snapshot, scale_);
   add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
-  Exposure picture = only_seen(with_shadows(stage_.render(), 5 * sizes.grain, sizes.shadows));
+  const double hollow = (beside_particles ? 2 : 5) * sizes.grain;
+  Exposure picture = only_seen(with_shadows(stage_.render(), hollow, sizes.shadows));
   const Snapshot held = marked(snapshot, Mark::held);
   if (snapshot.bones.empty() && held.particles.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
@@ -170,7 +176,7 @@ Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes) {
 }
 
 Exposure Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
-  add_skin(stage_.renderer(), snapshot, skin_);
+  add_skin(stage_.renderer(), snapshot, skin_, scale_);
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain, sizes.shadows);
   pale(picture);
@@ -224,7 +230,8 @@ Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
 }
 
 Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) {
-  if (view == View::surface) return surface(snapshot, sizes);
+  if (view == View::surface || view == View::halves)
+    return surface(snapshot, sizes, view == View::halves);
   if (view == View::particles || view == View::both)
     return particles(snapshot, sizes, view == View::both);
 

@@ -11,8 +11,9 @@
 namespace sinew {
 
 enum class View {
-  surface,    ///< the skin, with the bones visible through it
+  surface,    ///< the skin, colored by its values if it has some, the bones visible through it
   particles,  ///< spheres of their true size, colored by their values
+  halves,     ///< a part of the skin, and beside it the particles, with the bones through both
   both,       ///< the particles inside the wireframe of the skin, and the bones
   arrows,     ///< the snapshot's arrows inside a pale skin
   lines,      ///< the snapshot's lines inside a pale skin
@@ -22,10 +23,11 @@ enum class View {
   plan,       ///< the bones and marked particles inside a pale skin, muscles as a red tint
 };
 
-/// Whether its colors show values.
-constexpr bool shows_values(View view) {
-  return view == View::particles || view == View::both || view == View::arrows ||
-         view == View::lines || view == View::binding;
+/// Whether the colors of this view of a snapshot show values.
+inline bool shows_values(View view, const Snapshot& snapshot) {
+  return view == View::particles || view == View::halves || view == View::both ||
+         view == View::arrows || view == View::lines || view == View::binding ||
+         (view == View::surface && !snapshot.skin_values.empty());
 }
 
 struct PictureOptions {
@@ -52,7 +54,7 @@ class Painter {
   const ColorScale& scale() const { return scale_; }
 
   /// Throws bad input for a snapshot that does not fit the rest surface or has not one value per
-  /// particle (or none), and for a size outside 16 .. 8192.
+  /// particle and point of the surface (or none), and for a size outside 16 .. 8192.
   Image draw(const Snapshot& snapshot, const PictureOptions& options);
 
  private:
@@ -60,7 +62,7 @@ class Painter {
   Image drawn(const Snapshot& snapshot, const PictureOptions& options);
   Exposure body(const Snapshot& snapshot, const Sizes& sizes, View view);
   Exposure particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones);
-  Exposure surface(const Snapshot& snapshot, const Sizes& sizes);
+  Exposure surface(const Snapshot& snapshot, const Sizes& sizes, bool beside_particles);
   Exposure pale_skin(const Snapshot& snapshot, const Sizes& sizes);
   void add_binding(const Snapshot& snapshot, const Sizes& sizes);
   void tint_muscles(Exposure& picture, const Snapshot& snapshot);

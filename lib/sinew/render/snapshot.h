@@ -54,11 +54,14 @@ enum class Mark : std::uint8_t {
 
 /// One moment. Any part may be empty and is then not drawn.
 struct Snapshot {
-  std::string caption;         ///< below the picture, may have several lines
-  Points particles;            ///< n x 3, m
-  double radius = 0;           ///< of each particle, m
-  std::vector<double> values;  ///< one per particle, shown in color; empty: all alike
-  Triangles surface;           ///< the same faces in all snapshots of a run
+  std::string caption;              ///< below the picture, may have several lines
+  Points particles;                 ///< n x 3, m
+  double radius = 0;                ///< of each particle, m
+  std::vector<double> values;       ///< one per particle, shown in color; empty: all alike
+  Triangles surface;                ///< the same faces in all snapshots of a run
+  std::vector<double> skin_values;  ///< one per point of the surface, in color; empty: none
+  /// One per point of the surface: only where they are negative it is drawn; empty: all of it.
+  std::vector<double> skin_sides;
   std::vector<SnapshotBone> bones;
   std::vector<SnapshotArrow> arrows;
   std::vector<SnapshotLine> lines;

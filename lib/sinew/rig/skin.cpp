@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -267,6 +268,56 @@ Points follow(const Skin& skin, const Points& now) {
       }
   });
   return moved;
+}
+
+namespace {
+
+/// Index in the body of the particle that one of the weights is of.
+std::size_t particle_of(const Skin& skin, std::size_t weight) {
+  return skin.near[skin.weighted[skin.particle[weight]]];
+}
+
+/// The place among the weights of the largest one of a vertex.
+std::size_t largest_weight(const Skin& skin, std::size_t vertex) {
+  const auto begin = skin.weight.begin();
+  return static_cast<std::size_t>(
+      std::max_element(begin + skin.first[vertex], begin + skin.first[vertex + 1]) - begin);
+}
+
+double mean_at(const Skin& skin, std::size_t vertex, const std::vector<double>& values,
+               std::size_t component, std::size_t components) {
+  double sum = 0, weights = 0;
+  for (std::size_t k = skin.first[vertex]; k < skin.first[vertex + 1]; ++k) {
+    const double value = values[components * particle_of(skin, k) + component];
+    if (std::isnan(value)) continue;
+    sum += skin.weight[k] * value;
+    weights += skin.weight[k];
+  }
+  return weights > 0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+Column at_vertices(const Skin& skin, const Column& of_particles) {
+  const auto components = static_cast<std::size_t>(of_particles.components);
+  const auto interpolated = [&](const auto& values, const auto& value_at) {
+    auto found = values;
+    found.resize(components * skin.rest.size());
+    parallel_for(skin.rest.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t c = 0; c < components; ++c) found[components * i + c] = value_at(i, c);
+    });
+    return found;
+  };
+  Column found{of_particles.name, of_particles.components, {}};
+  if (const auto* reals = std::get_if<std::vector<double>>(&of_particles.values))
+    found.values = interpolated(
+        *reals, [&](auto i, auto c) { return mean_at(skin, i, *reals, c, components); });
+  else if (const auto* whole = std::get_if<std::vector<std::int32_t>>(&of_particles.values))
+    found.values = interpolated(*whole, [&](auto i, auto c) {
+      return (*whole)[components * particle_of(skin, largest_weight(skin, i)) + c];
+    });
+  return found;
 }
 
 }  // namespace sinew

@@ -5,11 +5,13 @@
 //
 //     const Skin skin = make_skin(vertices, rest, radius);
 //     const Points moved = follow(skin, now);
+//     const Column strain = at_vertices(skin, strain_of_particles);
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include <sinew/core/dataset.h>
 #include <sinew/core/deformation.h>
 #include <sinew/core/vector.h>
 #include <sinew/rig/binding.h>
@@ -47,5 +49,10 @@ Skin without_lone_particles(Skin skin);
 /// The vertices when the particles are at `now` (m, in the order of the body's points). In
 /// parallel.
 Points follow(const Skin& skin, const Points& now);
+
+/// An array of the body's particles at the vertices: the mean by the weights of the particles that
+/// have a value (not-a-number where none has). Whole numbers are those of the particle with the
+/// largest weight. In parallel.
+Column at_vertices(const Skin& skin, const Column& of_particles);
 
 }  // namespace sinew

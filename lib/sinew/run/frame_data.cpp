@@ -19,15 +19,9 @@ namespace sinew {
 namespace {
 
 /// The bone of the particle that moves each vertex most.
-std::vector<std::int32_t> bones_of_vertices(const Skin& skin, const Binding& binding) {
-  std::vector<std::int32_t> bones;
-  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
-    const auto begin = skin.weight.begin() + skin.first[i];
-    const auto most = std::max_element(begin, skin.weight.begin() + skin.first[i + 1]);
-    bones.push_back(
-        binding.bone(skin.near[skin.weighted[skin.particle[most - skin.weight.begin()]]]));
-  }
-  return bones;
+std::vector<std::int32_t> bones_of_vertices(const Skin& skin, const Body& body) {
+  const Column bones = at_vertices(skin, column("bone", bones_of_particles(body)));
+  return std::get<std::vector<std::int32_t>>(bones.values);
 }
 
 /// The rows of a plain column for these particles; all of them where no ids are given.
@@ -89,7 +83,7 @@ FrameData::FrameData(const OutputSettings& output, const Body& body, const Frame
       skin_(make_skin(scene.surface.points, body.rest, body.material.pair.r, body.skeleton,
                       body.binding)),
       surface_(scene.surface),
-      surface_bone_(bones_of_vertices(skin_, body.binding)),
+      surface_bone_(bones_of_vertices(skin_, body)),
       obstacles_(scene.obstacles),
       single_(!output.double_precision) {
   if (scene.volume)
@@ -111,16 +105,26 @@ void FrameData::begin_arrays(const OutputSettings& output, const FrameScene& sce
   const std::string words = strain == StrainInFrames::by_default ? words_for_arrays(output, body_)
                                                                  : words_asked_for(output, body_);
   arrays_ = requested_arrays(words);
+  const ContentOfSkin skin = content_of_skin(output, body_);
+  on_skin_.arrays = skin.named.frame;
+  on_skin_too_ = skin.named.requested;
   const bool with_bonds = output.bonds || (volume_ && bonds_change(body_.material));
-  const bool is_measured = !arrays_.measured.empty() || with_bonds || probed_;
+  const bool is_measured = !arrays_.measured.empty() || !on_skin_too_.measured.empty() ||
+                           !skin.usual.empty() || with_bonds || probed_;
   if (is_measured) measured_.emplace(body_, scene.surface, scene.neighbors);
-  try {
-    if (is_measured)
-      arrays_.measured = defined_arrays(measured_->rest(), measured_->at_rest(), arrays_);
-    arrays_.stepped = defined_moment_arrays(body_, std::move(arrays_.stepped), arrays_.all);
-  } catch (const Error& error) {
-    throw error.with_context({"output.arrays"});
-  }
+  const auto keep_defined = [&](RequestedArrays& arrays, const char* key) {
+    try {
+      if (!arrays.measured.empty())
+        arrays.measured = defined_arrays(measured_->rest(), measured_->at_rest(), arrays);
+      arrays.stepped = defined_moment_arrays(body_, std::move(arrays.stepped), arrays.all);
+    } catch (const Error& error) {
+      throw error.with_context({key});
+    }
+  };
+  keep_defined(arrays_, "output.arrays");
+  keep_defined(on_skin_too_, "output.skin");
+  if (!skin.usual.empty() && has_strain(measured_->rest()))
+    on_skin_too_.measured.insert(on_skin_too_.measured.end(), skin.usual.begin(), skin.usual.end());
 }
 
 void FrameData::take(Simulation& simulation, double time, bool with_particles) {
@@ -139,14 +143,16 @@ void FrameData::take(Simulation& simulation, double time, bool with_particles) {
     frame.support_reactions = simulation.support_reactions();
     frame.load_reactions = simulation.load_reactions();
   }
-  if (frame.with_particles) frame.broken_bonds = simulation.broken_bonds();
+  skin_columns_.clear();
+  if (frame.with_particles || !on_skin_.arrays.empty())
+    frame.broken_bonds = simulation.broken_bonds();
   frame.grouping = simulation.body().grouping;
   frame.reactions = simulation.reactions_of_bones();
   frame.forces = simulation.take_forces();
   frame.particles = simulation.take_particles();
   find_positions_by_id(frame.particles, frame.positions);
   frame.measured = FrameState();
-  if (measured_ && (frame.with_particles || probed_)) {
+  if (measured_ && (frame.with_particles || probed_ || !on_skin_too_.measured.empty())) {
     frame.measured.positions = frame.positions;
     for (const BonePose& bone : frame.pose) frame.measured.bones.push_back(bone.frame);
     measured_->take_forces(simulation, time, frame.measured);
@@ -164,43 +170,76 @@ void FrameData::lend_particles(const std::function<void(const Dataset&)>& use) {
   if (all) now_.positions = std::move(lent.points);
 }
 
-Dataset FrameData::particles_at(Points positions) {
-  assert(now_.with_particles);
-  const bool all = selection_.ids.empty();
+Dataset FrameData::frame_of(Points positions, const ParticleSelection& selection) {
   const Forces& forces = now_.forces;
   group_.clear(), level_.clear();
   if (now_.grouping) group_ = now_.grouping->group, level_ = now_.grouping->levels();
-  Dataset particles = particles_dataset({now_.particles,
-                                         body_.rest,
-                                         body_.binding,
-                                         forces.pair,
-                                         forces.damping,
-                                         forces.bone,
-                                         forces.neighbors,
-                                         now_.energies,
-                                         forces.world,
-                                         body_.material_number,
-                                         now_.broken_bonds,
-                                         {},
-                                         group_,
-                                         level_,
-                                         forces.group},
-                                        std::move(positions), now_.moment, selection_);
-  std::vector<Column> columns;
-  if (measured_) columns = particle_arrays(measured_->rest(), now_.measured, arrays_.measured);
+  return particles_dataset({now_.particles,
+                            body_.rest,
+                            body_.binding,
+                            forces.pair,
+                            forces.damping,
+                            forces.bone,
+                            forces.neighbors,
+                            now_.energies,
+                            forces.world,
+                            body_.material_number,
+                            now_.broken_bonds,
+                            {},
+                            group_,
+                            level_,
+                            forces.group},
+                           std::move(positions), now_.moment, selection);
+}
+
+Dataset FrameData::particles_at(Points positions) {
+  assert(now_.with_particles);
+  const bool all = selection_.ids.empty();
+  Dataset particles = frame_of(std::move(positions), selection_);
+  std::vector<Column> columns = measure(arrays_.measured);
+  add_stepped(arrays_.stepped, all ? particles.points : now_.positions, columns);
   for (Column& array : columns)
-    particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
-  const BodyMoment moment{body_,          all ? particles.points : now_.positions,
-                          now_.particles, forces,
-                          now_.pose,      now_.gravity};
-  for (Column& array : moment_arrays(moment, arrays_.stepped))
     particles.point_columns.push_back(rows_of(std::move(array), selection_.ids));
   return particles;
 }
 
+/// Measures these and, once for each moment, what the skin has.
+std::vector<Column> FrameData::measure(std::vector<std::string_view> names) {
+  const std::size_t count = names.size();
+  if (skin_columns_.empty())
+    for (const std::string_view name : on_skin_too_.measured)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  if (names.empty()) return {};
+  std::vector<Column> columns = particle_arrays(measured_->rest(), now_.measured, names);
+  if (skin_columns_.empty())
+    for (const std::string_view name : on_skin_too_.measured)
+      skin_columns_.push_back(at_vertices(skin_, *find(columns, name)));
+  columns.resize(count);
+  return columns;
+}
+
+void FrameData::add_stepped(std::span<const std::string_view> names, const Points& positions,
+                            std::vector<Column>& columns) const {
+  const BodyMoment moment{body_, positions, now_.particles, now_.forces, now_.pose, now_.gravity};
+  for (Column& array : moment_arrays(moment, names)) columns.push_back(std::move(array));
+}
+
+std::vector<Column> FrameData::columns_of_skin() {
+  std::vector<Column> of_particles;
+  if (!on_skin_.arrays.empty())
+    of_particles = evaluated(frame_of(now_.positions, on_skin_)).point_columns;
+  add_stepped(on_skin_too_.stepped, now_.positions, of_particles);
+  if (skin_columns_.empty()) measure({});
+  std::vector<Column> columns = skin_columns_;
+  for (const Column& array : of_particles) columns.push_back(at_vertices(skin_, array));
+  return columns;
+}
+
 Dataset FrameData::surface() {
   surface_.points = follow(skin_, now_.positions);
-  return surface_dataset(surface_, skin_.rest, surface_bone_, now_.moment);
+  Dataset skin = surface_dataset(surface_, skin_.rest, surface_bone_, now_.moment);
+  for (Column& array : columns_of_skin()) skin.point_columns.push_back(std::move(array));
+  return skin;
 }
 
 Dataset FrameData::skinned(SkinningMethod method) {

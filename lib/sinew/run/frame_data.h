@@ -34,8 +34,8 @@
 
 namespace sinew {
 
-/// Whether frames contain strain_eq without being asked to: several writers of a frame cannot find
-/// it.
+/// Whether particles have strain_eq in frames without being asked to: several writers of a frame
+/// cannot find it.
 enum class StrainInFrames { by_default, on_request };
 
 /// Moves the surface by skinning alone: linear_blend_skinned or dual_quaternion_skinned.
@@ -88,14 +88,17 @@ class FrameData {
   /// What was taken.
   const FrameMoment& now() const { return now_; }
   /// Frees the memory of what was taken.
-  void forget() { now_ = {}; }
+  void forget() {
+    now_ = {};
+    skin_columns_.clear();
+  }
 
   /// A vertex for each particle, with their arrays and the energies, where they were taken. It
   /// refers to this object, until the next take(): evaluated() makes it independent.
   Dataset particles();
   /// Hands the same to `use` without a copy of the positions.
   void lend_particles(const std::function<void(const Dataset&)>& use);
-  /// The skin, as the particles move it.
+  /// The skin, as the particles move it, with those of their arrays that it has.
   Dataset surface();
   /// The skin by skinning alone.
   Dataset skinned(SkinningMethod method);
@@ -124,6 +127,11 @@ class FrameData {
   void begin_arrays(const OutputSettings& output, const FrameScene& scene, StrainInFrames strain);
   Dataset particles_at(Points positions);
   std::vector<char> pairs_apart(const Points& positions) const;
+  Dataset frame_of(Points positions, const ParticleSelection& selection);
+  std::vector<Column> measure(std::vector<std::string_view> names);
+  void add_stepped(std::span<const std::string_view> names, const Points& positions,
+                   std::vector<Column>& columns) const;
+  std::vector<Column> columns_of_skin();
 
   const Body& body_;
   ParticleSelection selection_;  ///< what the frames of particles contain
@@ -134,6 +142,9 @@ class FrameData {
   std::vector<Triangles> obstacles_;
   BoneWeights vertex_weights_;             ///< for skinning alone, once it is asked for
   RequestedArrays arrays_;                 ///< additional ones
+  ParticleSelection on_skin_;              ///< the arrays that the surface has of particles
+  RequestedArrays on_skin_too_;            ///< and these
+  std::vector<Column> skin_columns_;       ///< measured ones of the moment, once they are found
   std::optional<ParticleMeter> measured_;  ///< which these and bonds are computed from, if any
   FrameMoment now_;
   std::optional<VolumeFrames> volume_;

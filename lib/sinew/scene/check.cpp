@@ -57,14 +57,25 @@ double memory_per_particle(const StepperChoice& choice, const Body& body) {
   return bytes;
 }
 
-/// Numbers per particle in the arrays that not every scene has.
-double additional_numbers(const OutputSettings& output, const Body& body) {
+double numbers_in(const std::vector<std::string_view>& arrays) {
   double numbers = 0;
-  for (const std::string_view name : additional_arrays(output, body)) {
+  for (const std::string_view name : arrays) {
     const WrittenArray* row = find_written("particles", ArrayPlace::point, name);
     numbers += std::max(1.0, static_cast<double>(row->components.size()));
   }
   return numbers;
+}
+
+/// Numbers per particle in the arrays that not every scene has.
+double additional_numbers(const OutputSettings& output, const Body& body) {
+  return numbers_in(additional_arrays(output, body));
+}
+
+/// Numbers per point of the surface in the arrays of particles.
+double numbers_on_skin(const ContentOfSkin& skin) {
+  const SkinArrays& named = skin.named;
+  return numbers_in(skin.usual) + numbers_in(named.frame) + numbers_in(named.requested.measured) +
+         numbers_in(named.requested.stepped);
 }
 
 /// Counts bonds of a particle inside, each shared by two.
@@ -78,6 +89,8 @@ Needs needs_of(const Prepared& prepared) {
   const auto points = static_cast<double>(prepared.surface.triangles.points.size());
   const auto faces = static_cast<double>(prepared.surface.triangles.faces.size());
   const double surfaces = 1 + (output.skin_lbs ? 1 : 0) + (output.skin_dqs ? 1 : 0);
+  const ContentOfSkin skin = content_of_skin(output, prepared.body);
+  const bool measures_skin = !skin.usual.empty() || !skin.named.requested.measured.empty();
   const double reals_of_world = prepared.body.world ? 3 : 0;  // the force of the world
   const double written =
       particles * written_fraction(output, prepared.body.rest, prepared.body.material.pair.r,
@@ -86,7 +99,7 @@ Needs needs_of(const Prepared& prepared) {
   const double reals =
       bond_lines * reals_per_bond +
       written * (reals_per_particle + reals_of_world + additional_numbers(output, prepared.body)) +
-      surfaces * points * reals_per_point +
+      surfaces * points * reals_per_point + points * numbers_on_skin(skin) +
       (output.volume ? particles : 0) *
           (volume_points_per_particle *
                (reals_per_particle + reals_of_world + additional_numbers(output, prepared.body)) +
@@ -111,7 +124,7 @@ Needs needs_of(const Prepared& prepared) {
   double per_particle = memory_per_particle(choice, prepared.body);
   if (output.bonds) per_particle += memory_of_bonds;
   if (output.volume) per_particle += memory_of_volume;
-  if (output.bonds || additional_numbers(output, prepared.body) > 0)
+  if (output.bonds || measures_skin || additional_numbers(output, prepared.body) > 0)
     per_particle += memory_of_measuring;
   needs.memory = static_cast<std::uint64_t>(particles * per_particle + points * memory_per_point +
                                             memory_beside);

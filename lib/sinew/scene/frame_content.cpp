@@ -76,6 +76,18 @@ std::vector<std::string_view> additional_arrays(const OutputSettings& output, co
   return found.measured;
 }
 
+ContentOfSkin content_of_skin(const OutputSettings& output, const Body& body) {
+  ContentOfSkin content{skin_arrays(output.skin), {}};
+  if (!content.named.usual || body.rest.size() > max_particles_with_strain) return content;
+  const auto& named = content.named.requested.measured;
+  const auto add = [&](std::string_view name) {
+    if (std::find(named.begin(), named.end(), name) == named.end()) content.usual.push_back(name);
+  };
+  add("strain_eq");
+  if (law_of(body.material).has_bonds) add("von_mises");
+  return content;
+}
+
 double written_fraction(const OutputSettings& output, const Points& rest, double radius,
                         const SharedNeighbors& near) {
   const std::size_t chosen = written_particles(output, rest, radius, near).size();

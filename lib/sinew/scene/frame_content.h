@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <sinew/body/body.h>
+#include <sinew/core/arrays.h>
 #include <sinew/core/vector.h>
 #include <sinew/settings/settings.h>
 
@@ -30,6 +31,16 @@ std::vector<std::string_view> additional_arrays(const OutputSettings& output, co
 std::string words_for_arrays(const OutputSettings& output, const Body& body);
 /// The same without strain_eq, unless output.arrays names it.
 std::string words_asked_for(const OutputSettings& output, const Body& body);
+
+/// The arrays of particles that the surface has as well: `named` by output.skin, and those that it
+/// has unasked.
+struct ContentOfSkin {
+  SkinArrays named;
+  std::vector<std::string_view> usual;  ///< measured; none that is named
+};
+/// Unasked, of bodies of up to 200,000 particles, it has strain_eq and, of materials with bonds,
+/// von_mises.
+ContentOfSkin content_of_skin(const OutputSettings& output, const Body& body);
 
 /// The fraction of all frames' numbers per particle that is written, by output.every, output.region
 /// and output.inside_every.

@@ -175,6 +175,7 @@ void check_output(const Settings& settings) {
   };
   check("output.arrays", requested_arrays, settings.output.arrays);
   check("output.only", frame_arrays, settings.output.only);
+  check("output.skin", skin_arrays, settings.output.skin);
   check_box(settings, "output.region", settings.output.region);
   if (settings.output.volume && (settings.output.region || settings.output.inside_every > 1))
     throw bad_input(place_of(settings, "output.volume",

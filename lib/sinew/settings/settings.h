@@ -205,6 +205,7 @@ struct OutputSettings {
   bool volume = false;
   std::string arrays;  ///< see requested_arrays()
   std::string only;    ///< see frame_arrays()
+  std::string skin;    ///< see skin_arrays()
   int every = 1;
   std::optional<std::array<double, 6>> region;  ///< x y z of the least corner, of the greatest
   int inside_every = 1;

@@ -31,17 +31,23 @@ std::vector<Field<Settings>> rows::output_rows() {
       field<S>("output", "volume", SINEW_AT(S, output.volume), "",
                "also writes the body as tetrahedra between particles, up to the surface of the "
                "mesh, with their volumes and whether they are torn"),
-      may_lack("none", field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
-                                "arrays of particles beside the usual ones (strain_eq is one up to "
-                                "200,000 particles), such as \"J, stress\", or all: F, J, stretch, "
-                                "strain, hencky_strain, strain_eq, stress, stress_kirchhoff, "
-                                "von_mises, D2min, turnover, surface_layer, inverted, "
-                                "pose_error; by forces and bones acceleration, bone_point, "
-                                "force_radial, force_twist, "
-                                "force_axial")),
+      may_lack("none",
+               field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
+                        "arrays of particles beside the usual ones (strain_eq is one up to "
+                        "200,000 particles), such as \"J, stress\", or all: F, J, stretch, "
+                        "strain, hencky_strain, strain_eq, stress, stress_kirchhoff, "
+                        "von_mises, D2min, turnover, surface_layer, inverted, pose_error; by "
+                        "forces and bones acceleration, bone_point, force_radial, "
+                        "force_twist, force_axial")),
       may_lack("all", field<S>("output", "only", SINEW_AT(S, output.only), "",
                                "the only arrays of particles beside those of output.arrays, such "
                                "as \"displacement, velocity\"")),
+      may_lack("auto",
+               field<S>("output", "skin", SINEW_AT(S, output.skin), "",
+                        "arrays of particles that the surface has as well, such as \"velocity, "
+                        "stress\", or all; beside strain_eq and, of materials with bonds, "
+                        "von_mises, which it has by itself up to 200,000 particles; none: without "
+                        "these two")),
       field<S>("output", "every", SINEW_AT(S, output.every), "",
                "writes the particles in every Nth frame only, from the first on; surface and bones "
                "are in all frames",

@@ -7,11 +7,14 @@
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
 #include <vtkClipClosedSurface.h>
+#include <vtkClipPolyData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFeatureEdges.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
+#include <vtkLookupTable.h>
 #include <vtkNew.h>
+#include <vtkNonMergingPointLocator.h>
 #include <vtkOpenGLSphereMapper.h>
 #include <vtkPlane.h>
 #include <vtkPlaneCollection.h>
@@ -71,22 +74,72 @@ vtkNew<vtkPolyData> net(const Points& points, const std::vector<Shading::Edge>& 
   return data;
 }
 
-void add_edges(vtkRenderer& renderer, const Points& points, const std::vector<Shading::Edge>& edges,
-               double opacity, double width) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(net(points, edges));
-  vtkProperty& look = add_actor(renderer, *mapper, edge_color);
-  look.LightingOff();
-  look.SetOpacity(opacity);  // below 1 depths are not written: lines cast no shadows
-  look.SetLineWidth(static_cast<float>(width));
-}
-
 /// Lifted off the surface along its normals, which would otherwise hide half of each line.
 Points lifted(const Triangles& surface, double by) {
   Points points = surface.points;
   const Points normals = point_normals(surface);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] += by * normals[i];
   return points;
+}
+
+/// `values`: of the surface's points. `source`: the surface's point behind each point; none:
+/// itself.
+vtkNew<vtkDoubleArray> named_values(const char* name, const std::vector<double>& values,
+                                    const std::vector<int>& source = {}) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (const double value : values)
+    if (source.empty()) array->InsertNextValue(value);
+  for (const int point : source) array->InsertNextValue(values[static_cast<std::size_t>(point)]);
+  return array;
+}
+
+/// The part on the negative side, with cut triangles and lines; all of it where there are no sides.
+vtkSmartPointer<vtkPolyData> part_of(vtkPolyData* data, const std::vector<double>& sides,
+                                     const std::vector<int>& source = {}) {
+  if (sides.empty()) return data;
+  data->GetPointData()->SetScalars(named_values("side", sides, source));
+  vtkNew<vtkClipPolyData> clip;
+  clip->SetInputData(data);
+  clip->InsideOutOn();
+  clip->SetLocator(vtkNew<vtkNonMergingPointLocator>());  // points stay split along creases
+  clip->Update();
+  return clip->GetOutput();
+}
+
+vtkNew<vtkLookupTable> table_of(const ColorScale& scale) {
+  constexpr int colors = 1024;
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(colors);
+  table->SetTableRange(scale.low, scale.high);
+  const auto put = [](const Color& color, auto&& set) {
+    set(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
+  };
+  for (int k = 0; k < colors; ++k)
+    put(scale.color(scale.low + (scale.high - scale.low) * (k + 0.5) / colors),
+        [&](double r, double g, double b) { table->SetTableValue(k, r, g, b); });
+  put(palette::no_value, [&](double r, double g, double b) { table->SetNanColor(r, g, b, 1); });
+  return table;
+}
+
+/// Values between points are interpolated, not colors, which the scale may lack.
+void show_values(vtkPolyDataMapper& mapper, const ColorScale& scale) {
+  mapper.SetLookupTable(table_of(scale));
+  mapper.SetScalarRange(scale.low, scale.high);
+  mapper.SetScalarModeToUsePointFieldData();
+  mapper.SelectColorArray("value");
+  mapper.InterpolateScalarsBeforeMappingOn();
+}
+
+void add_edges(vtkRenderer& renderer, const Snapshot& snapshot, double lift,
+               const std::vector<Shading::Edge>& edges, double opacity, double width) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(part_of(net(lifted(snapshot.surface, lift), edges), snapshot.skin_sides));
+  mapper->ScalarVisibilityOff();
+  vtkProperty& look = add_actor(renderer, *mapper, edge_color);
+  look.LightingOff();
+  look.SetOpacity(opacity);  // below 1 depths are not written: lines cast no shadows
+  look.SetLineWidth(static_cast<float>(width));
 }
 
 void add_tubes(vtkRenderer& renderer, vtkPolyData* lines, double radius, const Color& color) {
@@ -167,7 +220,8 @@ void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorS
   add_actor(renderer, *mapper, palette::paper);
 }
 
-void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin) {
+void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
+              const ColorScale& scale) {
   if (skin.faces.empty()) return;
   const Triangles shaded = skin.at(snapshot.surface.points);
   vtkNew<vtkFloatArray> normals;
@@ -177,8 +231,15 @@ void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& sk
   data->SetPoints(vtk_points(shaded.points));
   data->SetPolys(vtk_cells(shaded.faces));
   data->GetPointData()->SetNormals(normals);
+  const bool has_values = !snapshot.skin_values.empty();
+  if (has_values)
+    data->GetPointData()->AddArray(named_values("value", snapshot.skin_values, skin.source));
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
+  mapper->SetInputData(part_of(data, snapshot.skin_sides, skin.source));
+  if (has_values)
+    show_values(*mapper, scale);
+  else
+    mapper->ScalarVisibilityOff();
   vtkProperty& look = add_actor(renderer, *mapper, skin_color);
   look.SetAmbient(0.34);
   look.SetDiffuse(0.62);
@@ -189,12 +250,12 @@ void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& ski
              const LineStyle& style) {
   constexpr double wide_enough = 7;  // pixels between lines: closer ones would gray the skin
   if (skin.mean_line < wide_enough * style.pixel) return;
-  add_edges(renderer, lifted(snapshot.surface, style.lift), skin.lines, 0.28, 0.7 * style.width);
+  add_edges(renderer, snapshot, style.lift, skin.lines, 0.28, 0.7 * style.width);
 }
 
 void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
                  const LineStyle& style) {
-  add_edges(renderer, lifted(snapshot.surface, style.lift), skin.creases, 0.8, style.width);
+  add_edges(renderer, snapshot, style.lift, skin.creases, 0.8, style.width);
 }
 
 void add_bare_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,

@@ -16,7 +16,9 @@ namespace sinew {
 /// Spheres of the snapshot's radius in the colors of their values.
 void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);
 
-void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin);
+/// The part that its sides let be drawn, in the colors of its values; its edges likewise.
+void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
+              const ColorScale& scale);
 
 struct LineStyle {
   double width = 1;  ///< of the sharp edges, in rendered pixels; the others are thinner

@@ -21,6 +21,9 @@ Json arrays_with_units() {
   for (const WrittenArray& array : written_arrays())
     arrays[std::string(array.series)][std::string(array.name)] = {
         {"on", place_text(array.place)}, {"unit", array.unit}, {"meaning", array.help}};
+  const Json of_particles = arrays["particles"];
+  for (const auto& [name, row] : of_particles.items())  // by output.skin
+    if (row["on"] == "point" && !arrays["surface"].contains(name)) arrays["surface"][name] = row;
   return arrays;
 }
 

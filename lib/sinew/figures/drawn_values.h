@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The quantities shown in color: those that a run has written, of its particles or of its surface,
+// and those measured from its frames.
+//
+//     const DrawnValues strain(run, "strain");
+//     const std::vector<double> of_particles = strain.at(0, frame);
+//     const std::vector<double> of_skin = DrawnSkin(run, strain).at(0, frame);
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <sinew/core/dataset.h>
+#include <sinew/metrics/rest_body.h>
+#include <sinew/rig/skin.h>
+#include <sinew/run/run_files.h>
+
+namespace sinew {
+
+class DrawnValues {
+ public:
+  /// `name`: an array of the particles or the surface, or strain, stretch, J, D2min, von_mises,
+  /// speed. Throws bad input for other names, suggesting the nearest.
+  DrawnValues(const RunFiles& run, const std::string& name);
+
+  const std::string& name() const { return name_; }
+  const std::string& unit() const { return unit_; }  ///< empty for pure numbers
+
+  /// Values of the particles in the written order; vectors as such. `frame` is the run's frame
+  /// `index`. Throws bad input for an array that the frame has not, naming those that it has.
+  Column column(std::size_t index, const RunFrame& frame) const;
+  /// One per particle: the magnitudes of vectors.
+  std::vector<double> at(std::size_t index, const RunFrame& frame) const;
+
+  /// The values at the ends of the color scale: the 1st and 99th percentile, so that a few escaped
+  /// particles do not determine it; from zero where that is near.
+  struct Range {
+    double low = 0, high = 0;
+  };
+  static Range range_of(std::vector<double> values);
+
+ private:
+  const RunFiles* run_;
+  std::string name_, unit_;
+  std::shared_ptr<const RestBody> rest_;  ///< for what is measured
+};
+
+/// The same values at the points of the surface: those that the run has written there, or else
+/// means of the particles that move each point, by their weights.
+class DrawnSkin {
+ public:
+  DrawnSkin(const RunFiles& run, const DrawnValues& values);
+
+  std::vector<double> at(std::size_t index, const RunFrame& frame) const;
+
+ private:
+  Column carried(const Column& of_particles) const;
+
+  const RunFiles* run_;
+  DrawnValues values_;
+  std::string written_;              ///< the surface's own array; empty: it has none
+  Skin skin_;                        ///< else
+  std::vector<std::int32_t> place_;  ///< in frames, of the body's particles, -1: not written
+};
+
+/// A vector array of the particles of a frame. Throws bad input where the run has none of that
+/// name.
+Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& name);
+
+}  // namespace sinew
