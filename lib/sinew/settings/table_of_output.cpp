@@ -1,36 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rows of what is written.
+#include <utility>
+
 #include <sinew/settings/row.h>
 
 namespace sinew {
 
 using namespace rows;
 
-std::vector<Field<Settings>> rows::output_rows() {
+namespace {
+
+/// What of the particles frames contain.
+std::vector<Field<Settings>> content_rows() {
   using S = Settings;
   return {
-      field<S>("output", "interval", SINEW_AT(S, output.interval), "s",
-               "simulated time between frames", positive),
-      field<S>("output", "checkpoint_interval", SINEW_AT(S, output.checkpoint_interval), "s",
-               "wall-clock time between checkpoints, from which --resume continues", not_negative),
-      choice<S>(
-          "output", "encoding", SINEW_AT(S, output.encoding), {"zlib", "lz4", "raw", "none"},
-          "encoding of the arrays in VTU files; none: plain base64; raw: not for VTK before 9.3"),
-      field<S>("output", "double_precision", SINEW_AT(S, output.double_precision), "",
-               "writes Float64 instead of Float32"),
-      field<S>("output", "skin_lbs", SINEW_AT(S, output.skin_lbs), "",
-               "also writes the surface moved by linear-blend skinning, for comparison"),
-      field<S>("output", "skin_dqs", SINEW_AT(S, output.skin_dqs), "",
-               "also writes the surface moved by dual-quaternion skinning, for comparison"),
-      field<S>("output", "export", SINEW_AT(S, output.export_surface), "",
-               "writes the moving surface for Blender, 3ds Max and Maya: surface.obj (rest) with "
-               "surface.pc2 (point cache), and surface.glb (morph targets)"),
-      field<S>("output", "bonds", SINEW_AT(S, output.bonds), "",
-               "also writes the bonds between particles as lines, with length, strain, force and "
-               "whether they broke"),
-      field<S>("output", "volume", SINEW_AT(S, output.volume), "",
-               "also writes the body as tetrahedra between particles, up to the surface of the "
-               "mesh, with their volumes and whether they are torn"),
       may_lack("none",
                field<S>("output", "arrays", SINEW_AT(S, output.arrays), "",
                         "arrays of particles beside the usual ones (strain_eq is one up to "
@@ -61,6 +44,39 @@ std::vector<Field<Settings>> rows::output_rows() {
                "surface; metrics are then of what is written",
                Range{1, 1e9}),
   };
+}
+
+}  // namespace
+
+std::vector<Field<Settings>> rows::output_rows() {
+  using S = Settings;
+  std::vector<Field<Settings>> all = {
+      field<S>("output", "interval", SINEW_AT(S, output.interval), "s",
+               "simulated time between frames", positive),
+      field<S>("output", "checkpoint_interval", SINEW_AT(S, output.checkpoint_interval), "s",
+               "wall-clock time between checkpoints, from which --resume continues", not_negative),
+      choice<S>(
+          "output", "encoding", SINEW_AT(S, output.encoding), {"zlib", "lz4", "raw", "none"},
+          "encoding of the arrays in VTU files; none: plain base64; raw: not for VTK before 9.3"),
+      field<S>("output", "double_precision", SINEW_AT(S, output.double_precision), "",
+               "writes Float64 instead of Float32"),
+      field<S>("output", "skin_lbs", SINEW_AT(S, output.skin_lbs), "",
+               "also writes the surface moved by linear-blend skinning, for comparison"),
+      field<S>("output", "skin_dqs", SINEW_AT(S, output.skin_dqs), "",
+               "also writes the surface moved by dual-quaternion skinning, for comparison"),
+      field<S>("output", "export", SINEW_AT(S, output.export_surface), "",
+               "writes the moving surface for Blender, 3ds Max and Maya: surface.obj (rest) with "
+               "surface.pc2 (point cache), and surface.glb (morph targets)"),
+      field<S>("output", "bonds", SINEW_AT(S, output.bonds), "",
+               "also writes the bonds between particles as lines, with length, strain, force and "
+               "whether they broke"),
+      field<S>("output", "volume", SINEW_AT(S, output.volume), "",
+               "also writes the body as tetrahedra between particles, up to the surface of the "
+               "mesh, with their volumes and whether they are torn"),
+  };
+  std::vector<Field<Settings>> content = content_rows();
+  for (Field<Settings>& row : content) all.push_back(std::move(row));
+  return all;
 }
 
 }  // namespace sinew
