@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rows of what is written.
-#include <utility>
-
 #include <sinew/settings/row.h>
+
+#include <utility>
 
 namespace sinew {
 
