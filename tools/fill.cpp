@@ -31,8 +31,8 @@ void declare(OptionList& list, Options& options) {
   list.add("-o", options.output, "File of the filled body, by default body.vtu").type_name("FILE");
   list.add("--to", options.format,
            "Format, by default that of the file's name: " + help_of_formats() +
-               "; tetrahedra between the particles, up to the surface: " + help_of_cell_files() +
-               ", by default volume.vtu")
+               ", tetrahedra (between the particles, up to the surface; into " +
+               help_of_cell_files() + ", by default volume.vtu)")
       .type_name("FORMAT");
   list.add_flag("--verify", options.verify,
                 "Check every site against CGAL's Side_of_triangle_mesh (closed meshes; slow)");

@@ -23,7 +23,8 @@ _sinew() {
     --packing) mapfile -t COMPREPLY < <(compgen -W "fcc hcp random conformal" -- "$word"); return ;;
     --to)
       local formats="vtu lammps dump xyz csv yade peridigm bgeo gltf"
-      [ "$command" = export ] && formats+=" calculix"
+      [ "$command" = fill ] && formats+=" tetrahedra"
+      [ "$command" = export ] && formats+=" calculix volume"
       mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$word")
       return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "m dm cm mm um in ft" -- "$word"); return ;;

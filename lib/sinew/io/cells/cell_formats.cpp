@@ -86,7 +86,7 @@ struct CellFormat {
 constexpr std::array<CellFormat, 4> formats = {{{".vtu", "VTK", nullptr},
                                                 {".msh", "Gmsh 2.2", add_gmsh},
                                                 {".mesh", "Medit", add_medit},
-                                                {".inp", "Abaqus, CalculiX", add_abaqus}}};
+                                                {".inp", "Abaqus and CalculiX", add_abaqus}}};
 
 const CellFormat& format_of(const std::filesystem::path& path) {
   for (const CellFormat& format : formats)
@@ -102,11 +102,7 @@ void check_cell_file(const std::filesystem::path& path) { format_of(path); }
 std::string help_of_cell_files() {
   std::string text;
   for (const CellFormat& format : formats)
-    text.append(text.empty() ? "" : ", ")
-        .append(format.ending)
-        .append(" (")
-        .append(format.help)
-        .append(")");
+    text.append(text.empty() ? "" : ", ").append(format.ending).append(" of ").append(format.help);
   return text;
 }
 

@@ -15,7 +15,7 @@ namespace sinew {
 /// Throws bad input, which lists the endings, for another one.
 void check_cell_file(const std::filesystem::path& path);
 
-/// "vtu (VTK), msh (Gmsh 2.2), ...", for help texts.
+/// ".vtu of VTK, .msh of Gmsh 2.2, ...", for help texts.
 std::string help_of_cell_files();
 
 /// Points (m), tetrahedra, and of the point columns `id`: which particle is there, -1 for none. It
