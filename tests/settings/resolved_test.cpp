@@ -184,6 +184,7 @@ class Chance {
     drawn.output.interval = std::min(drawn.output.interval, drawn.solver.duration);
     if (drawn.solver.method == Method::dynamic) {
       drawn.solver.residual.reset();
+      drawn.solver.static_solver = StaticSolver::automatic;
     } else {
       drawn.solver.integrator = Integrator::symplectic_euler;
       drawn.solver.time_step.reset();
