@@ -141,6 +141,7 @@ class Chance {
       drawn.body.count = 1000;
     if (!drawn.output.arrays.empty()) drawn.output.arrays = "J, stress";
     if (!drawn.output.only.empty()) drawn.output.only = "velocity, force";
+    if (!drawn.output.skin.empty()) drawn.output.skin = "none, velocity, stress";
     if (drawn.output.region) drawn.output.region = {-1, 0, 0, 0.5, 1, 2e9};
     if (drawn.hierarchy.free_region) drawn.hierarchy.free_region = {0, -2, -3e5, 0.5, 1, 2};
     if (!is_lattice(drawn.body.packing)) drawn.output.inside_every = 1;
@@ -186,6 +187,7 @@ class Chance {
     drawn.output.interval = std::min(drawn.output.interval, drawn.solver.duration);
     if (drawn.solver.method == Method::dynamic) {
       drawn.solver.residual.reset();
+      drawn.solver.static_solver = StaticSolver::automatic;
     } else {
       drawn.solver.integrator = Integrator::symplectic_euler;
       drawn.solver.time_step.reset();

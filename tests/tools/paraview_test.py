@@ -155,7 +155,8 @@ class Series(unittest.TestCase):
 
 class Skin(unittest.TestCase):
     def test_the_surface_has_the_strain_of_the_particles(self):
-        for time, _ in (rows_of("surface")[0], rows_of("surface")[-1]):
+        rows, largest = rows_of("surface"), 0
+        for time, _ in (rows[0], rows[len(rows) // 2], rows[-1]):
             skin, particles = (fetched(opened(series), time).GetPointData().GetArray("strain_eq")
                                for series in ("surface", "particles"))
             self.assertEqual(skin.GetInformation().Get(vtkDataArray.UNITS_LABEL()), "1")
@@ -163,7 +164,8 @@ class Skin(unittest.TestCase):
             if particles:  # what several ranks have written lacks it
                 self.assertLessEqual(max(values(skin)), max(values(particles)))
                 self.assertGreaterEqual(min(values(skin)), min(values(particles)))
-        self.assertGreater(max(values(skin)), 0.01)
+            largest = max(largest, *values(skin))
+        self.assertGreater(largest, 0.01)
 
 
 class Picking(unittest.TestCase):
