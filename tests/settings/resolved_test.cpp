@@ -146,8 +146,6 @@ class Chance {
     if (drawn.hierarchy.free_region) drawn.hierarchy.free_region = {0, -2, -3e5, 0.5, 1, 2};
     if (!is_lattice(drawn.body.packing)) drawn.output.inside_every = 1;
     if (drawn.output.region || drawn.output.inside_every > 1) drawn.output.volume = false;
-    if (drawn.solver.method == Method::dynamic)
-      drawn.solver.static_solver = StaticSolver::automatic;
     if (drawn.material.k1) drawn.material.young_modulus = MaterialOptions().young_modulus;
     if (drawn.material.k2) drawn.material.lambda = MaterialOptions().lambda;
     if (drawn.material.damping_ratio) drawn.material.damping = MaterialOptions().damping;
