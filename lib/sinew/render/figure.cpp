@@ -224,15 +224,15 @@ void draw_scale_bar(Image& sheet, const SheetLayout& layout, int x, const Color&
 
 /// Says at the foot's right what the colors of the bones' axes stand for.
 void draw_axes_key(Image& sheet, const SheetLayout& layout) {
-  static constexpr std::array<const char*, 3> names = {"along the bone", "its side y",
-                                                       "its side z"};
+  static constexpr std::array<const char*, 3> meanings = {"along the bone", "its side y",
+                                                          "its side z"};
   TextStyle words = layout.small();
   const int line = line_height(words), side = std::max(4, words.size / 2);
   int y = layout.bar;
-  for (std::size_t axis = 0; axis < names.size(); ++axis, y += line) {
+  for (std::size_t axis = 0; axis < meanings.size(); ++axis, y += line) {
     const int right = layout.width - layout.margin / 2;
     words.align = Align::right;
-    write_text(sheet, names[axis], right, y, words);
+    write_text(sheet, meanings[axis], right, y, words);
     fill(sheet, right - 8 * words.size, y + line / 2 - side / 2, side, side, palette::axes[axis]);
   }
 }

@@ -44,6 +44,7 @@ std::vector<Chart> element_charts(const ElementComparison& compared) {
               "Of each particle, over the largest displacement",
               "%",
               {0},
+              0,
               Drawn::always,
               {{"rms", {}}, {"largest", {}}}};
   for (const ElementFrame& frame : compared.frames) {
@@ -58,6 +59,7 @@ std::vector<Chart> element_charts(const ElementComparison& compared) {
                   "Of the probe",
                   "m",
                   {0},
+                  0,
                   Drawn::unless_zero,
                   {{"a: elements", {}}, {"b: run", {}}}};
       for (const Vec3& value : probe.elements) chart.lines[0].values.push_back(value[axis]);

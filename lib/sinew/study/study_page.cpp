@@ -148,6 +148,7 @@ Chart chart_of(const ChartPlan& plan, std::string_view metric, const Study& stud
               std::string(metrics_table()[metric_index(metric)].help),
               std::string(plan.unit),
               plan.baselines,
+              plan.span,
               plan.drawn,
               {}};
   for (const StudiedRun& run : study.runs)
@@ -157,7 +158,7 @@ Chart chart_of(const ChartPlan& plan, std::string_view metric, const Study& stud
 }
 
 Chart chart_of(const MachineColumn& column, const Study& study) {
-  Chart chart{column.name, "Of supports, loads and probes", column.unit, {0}, Drawn::unless_zero,
+  Chart chart{column.name, "Of supports, loads and probes", column.unit, {0}, 0, Drawn::unless_zero,
               {}};
   for (const StudiedRun& run : study.runs)
     for (const MachineColumn& one : run.machine)
@@ -171,9 +172,10 @@ std::vector<Chart> charts_of(const Study& study) {
     charts.push_back(chart_of(column, study));
   std::set<std::string_view> drawn;
   for (const ChartPlan& plan : chart_plans())
-    for (const std::string_view metric : plan.metrics)
+    for (const auto& [metric, words] : plan.metrics)
       if (drawn.insert(metric).second) charts.push_back(chart_of(plan, metric, study));
   leave_out_empty(charts);
+  std::stable_partition(charts.begin(), charts.end(), says_something);
   return charts;
 }
 
