@@ -2,6 +2,7 @@
 #include <sinew/metrics/report/report.h>
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <nlohmann/json.hpp>
 
@@ -122,11 +123,18 @@ TEST(Report, HandsEveryPlannedChartAndItsCurvesToTheScript) {
   const std::string page = report_html(input);
   const auto data = json_in(page, "data");
   ASSERT_EQ(data["charts"].size(), chart_plans().size());
-  for (std::size_t i = 0; i < chart_plans().size(); ++i) {
-    EXPECT_EQ(data["charts"][i]["title"], chart_plans()[i].title);
-    EXPECT_EQ(data["charts"][i]["lines"].size(), chart_plans()[i].metrics.size());
-    EXPECT_EQ(data["charts"][i]["lines"][0]["points"].size(), input.frames.size());
+  for (const ChartPlan& plan : chart_plans()) {
+    const auto& charts = data["charts"];
+    const auto chart = std::find_if(charts.begin(), charts.end(),
+                                    [&](const auto& one) { return one["title"] == plan.title; });
+    ASSERT_NE(chart, charts.end()) << plan.title;
+    EXPECT_EQ((*chart)["lines"].size(), plan.metrics.size());
+    EXPECT_EQ((*chart)["lines"][0]["points"].size(), input.frames.size());
   }
+  EXPECT_TRUE(std::is_sorted(
+      data["charts"].begin(), data["charts"].end(), [](const auto& a, const auto& b) {
+        return a["folded"].template get<bool>() < b["folded"].template get<bool>();
+      }));
   EXPECT_EQ(data["angles"].size(), input.frames.size());
   EXPECT_EQ(data["curves"].size(), 1u);
   EXPECT_TRUE(contains(page, "id=\"charts\"") && contains(page, "id=\"curves\""));

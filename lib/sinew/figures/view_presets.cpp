@@ -18,7 +18,7 @@ constexpr std::array<ViewPreset, 10> all_view_presets = {{
      "the skin, in color where an array is named, the bones shining through"},
     {"halves", View::halves, false, "strain",
      "half of the skin, beside it the particles, in color"},
-    {"particles", View::particles, false, deformation, "spheres of their true size"},
+    {"particles", View::particles, false, "displacement", "spheres of their true size"},
     {"section", View::both, true, deformation, "the body cut open along its middle"},
     {"strain", View::particles, false, "strain", "particles by their equivalent strain"},
     {"forces", View::arrows, false, "force_pair", "arrows of a force within the pale skin"},

@@ -226,14 +226,13 @@ void draw_scale_bar(Image& sheet, const SheetLayout& layout, int x, const Color&
 void draw_axes_key(Image& sheet, const SheetLayout& layout) {
   static constexpr std::array<const char*, 3> meanings = {"along the bone", "its side y",
                                                           "its side z"};
-  TextStyle words = layout.small();
+  const TextStyle words = layout.small();
   const int line = line_height(words), side = std::max(4, words.size / 2);
+  const int x = layout.width - layout.margin / 2 - 9 * words.size;
   int y = layout.bar;
   for (std::size_t axis = 0; axis < meanings.size(); ++axis, y += line) {
-    const int right = layout.width - layout.margin / 2;
-    words.align = Align::right;
-    write_text(sheet, meanings[axis], right, y, words);
-    fill(sheet, right - 8 * words.size, y + line / 2 - side / 2, side, side, palette::axes[axis]);
+    fill(sheet, x, y + line / 2 - side / 2, side, side, palette::axes[axis]);
+    write_text(sheet, meanings[axis], x + 2 * side, y, words);
   }
 }
 

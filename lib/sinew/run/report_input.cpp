@@ -271,10 +271,6 @@ std::string subject_of(const RunFolder& folder, const Settings& settings) {
   if (const double step = record.value("time_step", 0.0);
       step > 0 && settings.solver.method == Method::dynamic)
     text += "; steps of " + with_unit(step, "s");
-  std::string command;
-  for (const auto& word : record.value("command", nlohmann::ordered_json::array()))
-    command += (command.empty() ? "; " : " ") + word.get<std::string>();
-  text += command;
   return text + "; sinew " + record.value("version", "") + ", " + record.value("started", "") + '.';
 }
 
