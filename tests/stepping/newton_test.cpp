@@ -75,7 +75,7 @@ TEST(Newton, ConvergesQuadratically) {
 }
 
 TEST(Newton, OneFarLoadLeadsWhereManySmallOnesDo) {
-  const Machine machine = gripped(21, {0, 0, -0.03}, {1.5, 0, 0});
+  const Machine machine = gripped(21, {0, 0, -0.01}, {1.2, 0, 0});
   LoadSteps slowly = by(StaticSolver::newton, 11);
   slowly.interval = 0.1;
   const Simulation at_once = machine.at_rest(by(StaticSolver::newton)),
