@@ -149,8 +149,8 @@ TEST_F(CheckpointFile, KeepsWhereAnIncrementBegan) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 8;
-  expect_refused(resealed(other), {"version 8, not 7"});
+  other[12] = 9;
+  expect_refused(resealed(other), {"version 9, not 8"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});
@@ -165,8 +165,8 @@ TEST_F(CheckpointFile, OfAnOlderVersionIsRefusedWithTheSinewThatWroteIt) {
   Checkpoint older = sample();
   older.run.program = "0.4.2";
   std::string bytes = bytes_of(older);
-  bytes[12] = 6;
-  expect_refused(resealed(bytes), {"version 6, not 7", "sinew '0.4.2'", "--force"});
+  bytes[12] = 7;
+  expect_refused(resealed(bytes), {"version 7, not 8", "sinew '0.4.2'", "--force"});
 }
 
 TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {

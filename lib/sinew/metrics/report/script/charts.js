@@ -110,8 +110,8 @@ function shownEnds(chart) {
     .filter((value) => value !== null).concat(chart.baselines);
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const [middle, size] = [(low + high) / 2, Math.max(Math.abs(low), Math.abs(high))];
-  const half = Math.max(high - low, leastSpan * size) / 2;
-  if (chart.span > high - low)  // from the baseline on, where all lies above it
+  const range = Math.max(high - low, leastSpan * size), half = range / 2;
+  if (chart.span > range)  // from the baseline on, where all lies above it
     return { suggestedMin: low, suggestedMax: low + chart.span };
   return { suggestedMin: middle - half, suggestedMax: size === 0 ? 1 : middle + half };
 }
