@@ -24,15 +24,15 @@ using namespace sinew;
 
 struct Options {
   std::string folder, other_folder, target, array, camera = "three_quarter", colors = "indigo";
-  std::string background = "white";
+  std::string look = "screen", background;
   std::vector<std::string> bones;
   std::vector<int> traced;
   double orbit = 0;  ///< degrees
   bool axes = false;
   std::vector<std::string> views;  ///< none given: the body, and bonds where the run wrote them
-  std::vector<double> times, range;
-  std::vector<int> part;  ///< of the movie's frames, which goes to standard output: K of N
-  int width = 1280, height = 720;
+  std::vector<double> times, range, plane;
+  std::vector<int> part;      ///< of the movie's frames, which goes to standard output: K of N
+  int width = 0, height = 0;  ///< 0: those of the look
   bool no_movie = false, no_pictures = false;
   bool percents = false;  ///< of the progress, as lines on standard output, for sinew run
 };
@@ -58,6 +58,13 @@ std::string help_of_colors() {
   return text;
 }
 
+std::string help_of_looks() {
+  std::string text;
+  for (const Look& look : looks())
+    ((text += text.empty() ? "" : "; ") += look.name) += " (" + std::string(look.help) + ')';
+  return text;
+}
+
 void declare_what(OptionList& list, Options& options) {
   list.add("DIR", options.folder, "Folder of the run").required();
   list.add("--view", options.views, help_of_views()).comma_separated().type_name("NAMES");
@@ -70,6 +77,12 @@ void declare_what(OptionList& list, Options& options) {
            "Array shown in color, also on the skin: displacement, velocity, force_pair, strain, J, "
            "...")
       .type_name("NAME");
+  list.add(
+          "--plane", options.plane,
+          "Plane of the views cut and forces: a point, and the direction toward the part left out; "
+          "by default through the joint that turns most")
+      .comma_separated()
+      .type_name("X,Y,Z,NX,NY,NZ");
   list.add(
           "--bones", options.bones,
           "Bones by name: these alone are drawn; particles of other bones are gray, without arrows")
@@ -97,17 +110,16 @@ void declare_how(OptionList& list, Options& options) {
   list.add("--orbit", options.orbit,
            "Angle by which the camera turns in the movie about the body's upright axis, degrees")
       .type_name("DEGREES");
+  list.add("--look", options.look, help_of_looks()).type_name("NAME").show_default();
   list.add("--background", options.background,
-           help_of_colors() + ", #rrggbb, or transparent (pictures only)")
-      .type_name("COLOR")
-      .show_default();
+           help_of_colors() +
+               ", #rrggbb, or transparent (pictures only); by default that of the look")
+      .type_name("COLOR");
   list.add_flag("--axes", options.axes, "The directions of X, Y and Z in a corner");
-  list.add("--width", options.width, "Width of pictures and movie, pixels")
-      .range(64, 8192)
-      .show_default();
-  list.add("--height", options.height, "Height of pictures and movie, pixels")
-      .range(64, 8192)
-      .show_default();
+  list.add("--width", options.width, "Width of pictures and movie, pixels, by default 1280")
+      .range(64, 8192);
+  list.add("--height", options.height, "Height of pictures and movie, pixels, by default 720")
+      .range(64, 8192);
 }
 
 void check_movie(const Options& options, const Backdrop& backdrop) {
@@ -122,21 +134,34 @@ void check_movie(const Options& options, const Backdrop& backdrop) {
 
 FigureSetOptions figure_set_options(const Options& options) {
   FigureSetOptions figure_set;
-  figure_set.width = options.width;
-  figure_set.height = options.height;
+  const Look& look = look_named(options.look);
+  figure_set.width = options.width > 0 ? options.width : look.width;
+  figure_set.height = options.height > 0 ? options.height : look.height;
   figure_set.view = view_named(options.camera);
   figure_set.colors = color_map_named(options.colors);
   figure_set.times = options.times;
-  figure_set.backdrop = backdrop_named(options.background);
+  figure_set.files.backdrop = backdrop_named(
+      options.background.empty() ? std::string(look.background) : options.background);
+  figure_set.files.print_width = look.print_width;
   figure_set.axes = options.axes;
   figure_set.orbit = radians(options.orbit);
-  check_movie(options, figure_set.backdrop);
+  check_movie(options, figure_set.files.backdrop);
   if (options.range.empty()) return figure_set;
   if (options.range.size() != 2 || !(options.range[0] < options.range[1]))
     throw bad_input("a range of colors needs two numbers, the lower one first",
                     "give it as --range 0,0.5");
   figure_set.range = {options.range[0], options.range[1]};
   return figure_set;
+}
+
+std::optional<CutPlane> plane_of(const Options& options) {
+  if (options.plane.empty()) return std::nullopt;
+  const auto& p = options.plane;
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (p.size() != 6 || !std::all_of(p.begin(), p.end(), finite) || Vec3(p[3], p[4], p[5]).isZero(0))
+    throw bad_input("a plane needs six numbers: a point on it, and a direction that is not zero",
+                    "give it as --plane 0,0,0.3,0,-1,0");
+  return CutPlane{{p[0], p[1], p[2]}, Vec3(p[3], p[4], p[5]).normalized()};
 }
 
 /// Other processes that draw their parts of the movie at the same time, as one has one display.
@@ -237,7 +262,8 @@ bool has_movie(const Options& options, std::size_t view) {
 
 Exit render(const Options& options, const Common& common, const std::vector<std::string>& words) {
   FigureSetOptions figure_set = figure_set_options(options);
-  DrawnRunOptions what{{}, options.array, figure_set.view, options.bones, options.traced};
+  DrawnRunOptions what{
+      {}, options.array, figure_set.view, options.bones, options.traced, plane_of(options)};
   const std::vector<std::string> views = views_of(options);
   for (const std::string& view : views) what.presets.push_back(view_preset_named(view));
   what.ahead = common.threads != 1;
@@ -275,8 +301,8 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
     if (has_movie(options, preset)) pages.movie(helpers.sources(pages));
   }
   if (tells_all(options)) {
-    write_scene_picture(scene_snapshot(run), {options.width, options.height}, figure_set.backdrop,
-                        (figure_set.folder / "scene.png").string());
+    write_scene_picture(scene_snapshot(run), {figure_set.width, figure_set.height},
+                        figure_set.files, (figure_set.folder / "scene.png").string());
     ++pictures;
   }
   Results results;
@@ -295,7 +321,8 @@ int main(int argc, char** argv) {
   Options options;
   About about{"render",
               "Draws pictures and a movie of a run.",
-              {"sinew render out/box_bend", "sinew render out/box_bend --width 1920 --height 1080",
+              {"sinew render out/box_bend", "sinew render out/box_bend --view cut,lines --no-movie",
+               "sinew render out/box_bend --width 1920 --height 1080",
                "sinew render out/box_bend --view strain,section --times 0,0.5,1 --no-movie",
                "sinew render out/box_bend --view surface,halves --array strain_eq",
                "sinew render out/box_bend --view forces --camera front --colormap inferno",

@@ -28,7 +28,7 @@ TEST(ContactSheet, has_a_surface_above_particles_for_each_snapshot) {
   Painter painter(snapshots[0].surface, synthetic_scale());
   SheetOptions options;
   options.width = 800, options.row_height = 200;
-  const Image sheet = contact_sheet(surface_above_particles(painter, snapshots), options);
+  const Image sheet = contact_sheet(surface_above_particles(painter, snapshots), options).pixels();
   const int margin = 800 / 32;
   EXPECT_LE(sheet.width, 800);
   EXPECT_EQ(groups(sheet, margin, 200), 3);
@@ -41,9 +41,9 @@ TEST(ContactSheet, has_a_surface_above_particles_for_each_snapshot) {
 TEST(ContactSheet, captions_and_color_scale_stand_below) {
   std::vector<Snapshot> snapshots = bending();
   Painter painter(snapshots[0].surface, synthetic_scale());
-  const Image with = contact_sheet(surface_above_particles(painter, snapshots), {});
+  const Image with = contact_sheet(surface_above_particles(painter, snapshots), {}).pixels();
   for (Snapshot& snapshot : snapshots) snapshot.caption.clear();
-  const Image without = contact_sheet(surface_above_particles(painter, snapshots), {});
+  const Image without = contact_sheet(surface_above_particles(painter, snapshots), {}).pixels();
   EXPECT_EQ(with.width, without.width);
   EXPECT_GT(with.height, without.height + 40);
   const Color high = mapped_color(1);
@@ -66,8 +66,8 @@ TEST(ContactSheet, has_a_row_for_each_way_of_looking) {
   SheetOptions options;
   options.width = 600, options.row_height = 120;
   const SheetRow row{&painter, &snapshots, View::both, ""};
-  const int one = contact_sheet({row}, options).height;
-  const Image three = contact_sheet({row, row, row}, options);
+  const int one = contact_sheet({row}, options).height();
+  const Image three = contact_sheet({row, row, row}, options).pixels();
   EXPECT_GT(three.height, one + 2 * 100);
   EXPECT_EQ(groups(three, one, 100), 3);
 }

@@ -52,7 +52,7 @@ Snapshot plan() {
 
 Image drawn(const Snapshot& snapshot) {
   Painter painter(snapshot.surface, {});
-  return elevations(painter, snapshot, {.width = 640, .height = 360});
+  return elevations(painter, snapshot, {.width = 640, .height = 360}).pixels();
 }
 
 TEST(Elevations, show_skin_bones_and_the_sample_from_two_sides) {

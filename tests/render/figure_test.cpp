@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/render/figure.h>
 
-#include <sinew/render/detail/tripod.h>
+#include <sinew/render/detail/keys.h>
 
 #include "helpers.h"
 #include "synthetic_run.h"
@@ -24,7 +24,7 @@ struct BentBody {
 TEST(Figure, shows_its_panels_side_by_side_above_the_caption_and_the_colors) {
   BentBody body;
   const Image image =
-      figure({body.panel(View::surface), body.panel(View::particles)}, body.options);
+      figure({body.panel(View::surface), body.panel(View::particles)}, body.options).pixels();
   EXPECT_EQ(image.width, 640);
   EXPECT_EQ(image.height, 360);
   EXPECT_GT(painted(image, 0, 0, 320, 280), 0.2);
@@ -35,16 +35,17 @@ TEST(Figure, shows_its_panels_side_by_side_above_the_caption_and_the_colors) {
 
 TEST(Figure, a_colored_skin_has_a_color_bar) {
   BentBody body;
-  EXPECT_EQ(painted(figure({body.panel(View::surface)}, body.options), 320, 320, 320, 40), 0);
+  EXPECT_EQ(painted(figure({body.panel(View::surface)}, body.options).pixels(), 320, 320, 320, 40),
+            0);
   body.snapshot.skin_values.assign(body.snapshot.surface.points.size(), 0.2);
   for (const View view : {View::surface, View::halves})
-    EXPECT_GT(painted(figure({body.panel(view)}, body.options), 320, 320, 320, 40), 0.05);
+    EXPECT_GT(painted(figure({body.panel(view)}, body.options).pixels(), 320, 320, 320, 40), 0.05);
 }
 
 TEST(Figure, a_title_stands_above_its_panel) {
   BentBody body;
-  const Image without = figure({body.panel(View::both)}, body.options);
-  const Image with = figure({body.panel(View::both, "bonded")}, body.options);
+  const Image without = figure({body.panel(View::both)}, body.options).pixels();
+  const Image with = figure({body.panel(View::both, "bonded")}, body.options).pixels();
   EXPECT_EQ(painted(without, 0, 0, 640, 12), 0);
   EXPECT_GT(painted(with, 0, 0, 640, 24), 0.01);
 }
@@ -76,7 +77,9 @@ TEST(Figure, shows_the_axes_in_a_corner_as_the_camera_sees_them) {
   options.width = 640, options.height = 360;
   options.camera.view = view_from({0, -1, 0});
   const Snapshot nothing;
-  const auto draw = [&] { return figure({{&painter, &nothing, View::surface, ""}}, options); };
+  const auto draw = [&] {
+    return figure({{&painter, &nothing, View::surface, ""}}, options).pixels();
+  };
   EXPECT_EQ(painted(draw()), 0);
   options.axes = true;
   const Image image = draw();
@@ -96,7 +99,7 @@ TEST(Figure, is_drawn_on_any_background_with_ink_that_is_read_there) {
   BentBody body;
   const Color navy{0, 0, 84};
   body.options.paper = paper_of(navy);
-  const Image image = figure({body.panel(View::bones, "bent")}, body.options);
+  const Image image = figure({body.panel(View::bones, "bent")}, body.options).pixels();
   for (const int x : {0, 639})
     for (const int y : {0, 359}) EXPECT_TRUE(has(image, navy, x, y, 1, 1));
   EXPECT_FALSE(has(image, palette::paper, 0, 0, 640, 360));
@@ -112,7 +115,7 @@ TEST(Figure, a_transparent_background_leaves_what_is_drawn) {
     body.options.paper = paper;
     return figure({body.panel(View::bones)}, body.options);
   };
-  const Image image = drawn_on({{}, true}, draw), white = drawn_on({}, draw);
+  const Image image = without_background(palette::ink, draw), white = draw(Paper{}).pixels();
   ASSERT_EQ(image.alpha.size(), 640U * 360);
   EXPECT_TRUE(white.alpha.empty());
   EXPECT_EQ(image.alpha[0], 0);

@@ -64,30 +64,6 @@ TEST(Text, stands_where_it_is_aligned) {
   EXPECT_GT(painted(image, 151, 0, 60, 60), 0.03);
 }
 
-TEST(Text, color_bar_of_names_has_a_part_for_each) {
-  const TextStyle style{14};
-  Image image(200, color_bar_height(style) + 10);
-  const ColorScale scale{"material", "", 0, 2, ColorMap::indigo, {"flesh", "fat", "bone"}};
-  draw_color_bar(image, scale, 10, 5, 180, style);
-  const int middle = 5 + line_height(style) + line_height(style) / 3;
-  for (int part = 0; part < 3; ++part)
-    for (const int x : {11 + 60 * part, 40 + 60 * part, 69 + 60 * part})
-      for (int c = 0; c < 3; ++c)
-        EXPECT_EQ(image.at(x, middle)[c], scale.color(part)[static_cast<std::size_t>(c)]) << x;
-}
-
-TEST(Text, color_bar_runs_from_low_to_high) {
-  Image image(200, 80);
-  const TextStyle style{16, palette::ink, Align::left};
-  draw_color_bar(image, {"speed", "m/s", 0, 2}, 10, 5, 180, style);
-  const int y = 5 + line_height(style) + 4;
-  const auto color = [&](int x) {
-    return Color{image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]};
-  };
-  EXPECT_EQ(color(10), mapped_color(0));
-  EXPECT_EQ(color(189), mapped_color(1));
-}
-
 TEST(Image, is_cut_out_of_white_and_black) {
   const auto drawn_on = [](const Color& background) {  // nothing, half of a red, all of it
     Image image(3, 1, background);

@@ -335,4 +335,37 @@ TEST(Picture, refuses_values_that_are_not_one_per_point_of_the_skin) {
   EXPECT_EQ(error_of([&] { painter.draw(snapshot, options); }).exit(), Exit::bad_input);
 }
 
+/// A cube of 2 m about the origin, as its skin and as six tetrahedra around a diagonal, cut in the
+/// middle by the plane y = 0; the value is x.
+Snapshot cut_cube() {
+  Snapshot snapshot;
+  SnapshotCut& cut = snapshot.cut;
+  for (int i = 0; i < 8; ++i)
+    cut.points.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  for (const Vec3& point : cut.points) cut.values.push_back(point.x());
+  for (const auto& [a, b] : {std::pair(1U, 3U), {3U, 2U}, {2U, 6U}, {6U, 4U}, {4U, 5U}, {5U, 1U}})
+    cut.cells.push_back({0U, a, b, 7U});
+  cut.point = Vec3::Zero(), cut.normal = -Vec3::UnitY();
+  snapshot.surface.points = cut.points;
+  snapshot.surface.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                            {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  for (const Vec3& point : cut.points) snapshot.skin_sides.push_back(-point.y());
+  return snapshot;
+}
+
+TEST(Picture, a_cut_is_flat_and_has_exactly_the_colors_of_its_values) {
+  const Snapshot snapshot = cut_cube();
+  const ColorScale scale{"x", "m", -1, 1};
+  Painter painter(snapshot.surface, scale);
+  PictureOptions options{View::cut, {}, 300, 300, 10, Finish::fine};
+  options.camera.view = view_from({0, -1, 0});
+  options.camera.frame = seen(options.camera.view, snapshot);
+  const Image image = painter.draw(snapshot, options);
+  for (const int y : {60, 150, 240})
+    for (const int x : {60, 100, 150, 200, 240}) {
+      const Color color = scale.color((x + 0.5 - 150) / 140);
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(image.at(x, y)[c], color[c], 3) << x;
+    }
+}
+
 }  // namespace sinew::picture_test

@@ -98,31 +98,47 @@ std::vector<double> sizes_of(const Column& column) {
   return std::visit(sizes, column.values);
 }
 
+/// Throws bad input where the run's forces, and so its stresses, do not follow from positions.
+void check_forces(const RestBody& rest, const std::string& name) {
+  if (!knows_forces(rest, {}))
+    throw bad_input("the forces of this run do not follow from its positions alone",
+                    "run the scene with output.arrays " + name);
+}
+
+bool is_measured(std::string_view name) {
+  const auto names = sinew::measured_arrays();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
 bool has_array(const RunFiles& run, const PvdRow& row, const std::string& name) {
   if (name.empty()) return false;
   return find(read_vtu(run.folder.path / row.file, {name.c_str()}).point_columns, name) != nullptr;
 }
 
-}  // namespace
-
 DrawnValues::DrawnValues(const RunFiles& run, const std::string& name) : run_(&run), name_(name) {
   if (const MeasuredArray* array = find_measured(name)) {
     unit_ = array->unit;
     rest_ = std::make_shared<RestBody>(rest_body(measured_body(run)));
-    if (name == "von_mises" && !knows_forces(*rest_, {}) && read_frame(run, 0).von_mises.empty())
-      throw bad_input("the forces of this run do not follow from its positions alone",
-                      "run the scene with output.arrays von_mises");
+    if (name == "von_mises" && read_frame(run, 0).von_mises.empty()) check_forces(*rest_, name);
     return;
   }
   const WrittenArray* array = find_written("surface", ArrayPlace::point, name);
   if (!array || name == "Points") throw unknown(run, name);
   if (array->unit != "1") unit_ = array->unit;
+  if (!is_measured(name) || has_array(run, run.particle_rows.front(), name)) return;
+  rest_ = std::make_shared<RestBody>(rest_body(measured_body(run)));
+  if (array->unit == "Pa") check_forces(*rest_, name);
 }
 
 Column DrawnValues::column(std::size_t index, const RunFrame& frame) const {
   if (rest_) {
     const FrameState state = measured_frame(frame);
-    return {name_, 1, particle_values(*rest_, state).*find_measured(name_)->values};
+    if (const MeasuredArray* array = find_measured(name_))
+      return {name_, 1, particle_values(*rest_, state).*array->values};
+    const std::string_view name = name_;
+    return particle_arrays(*rest_, state, {&name, 1}).front();
   }
   if (name_ == "displacement") return {name_, 1, frame.displacement};
   return column_of(*run_, run_->particle_rows[index], name_, run_->body.particles.size());
@@ -138,7 +154,8 @@ DrawnValues::Range DrawnValues::range_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t outliers = values.size() / 100;
   const double low = values[outliers], high = values[values.size() - 1 - outliers];
-  return {values.front() >= 0 && low < high / 2 ? 0 : low, high};
+  const bool from_zero = values.front() >= 0 && low < high / 2;
+  return {from_zero ? 0 : low, high, values.back() > high || (!from_zero && values.front() < low)};
 }
 
 DrawnSkin::DrawnSkin(const RunFiles& run, const DrawnValues& values) : run_(&run), values_(values) {

@@ -21,8 +21,9 @@ namespace sinew {
 
 class DrawnValues {
  public:
-  /// `name`: an array of the particles or the surface, or strain, stretch, J, D2min, von_mises,
-  /// speed. Throws bad input for other names, suggesting the nearest.
+  /// `name`: an array of the particles or the surface, or one that is measured from positions, as
+  /// strain (its equivalent), speed, or stress. Throws bad input for other names, suggesting the
+  /// nearest, and for stresses that positions do not define.
   DrawnValues(const RunFiles& run, const std::string& name);
 
   const std::string& name() const { return name_; }
@@ -31,13 +32,14 @@ class DrawnValues {
   /// Values of the particles in the written order; vectors as such. `frame` is the run's frame
   /// `index`. Throws bad input for an array that the frame has not, naming those that it has.
   Column column(std::size_t index, const RunFrame& frame) const;
-  /// One per particle: the magnitudes of vectors.
+  /// One per particle: the magnitudes of vectors and tensors.
   std::vector<double> at(std::size_t index, const RunFrame& frame) const;
 
   /// The values at the ends of the color scale: the 1st and 99th percentile, so that a few escaped
   /// particles do not determine it; from zero where that is near.
   struct Range {
     double low = 0, high = 0;
+    bool leaves_out = false;  ///< whether values lie outside
   };
   static Range range_of(std::vector<double> values);
 
@@ -64,6 +66,9 @@ class DrawnSkin {
   Skin skin_;                        ///< else
   std::vector<std::int32_t> place_;  ///< in frames, of the body's particles, -1: not written
 };
+
+/// Whether a file of a series has this array of its points.
+bool has_array(const RunFiles& run, const PvdRow& row, const std::string& name);
 
 /// A vector array of the particles of a frame. Throws bad input where the run has none of that
 /// name.

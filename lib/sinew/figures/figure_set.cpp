@@ -36,9 +36,10 @@ void check_times(const std::vector<double>& times, const RunFiles& run) {
 struct Label {
   std::string_view array, words;
 };
-constexpr std::array<Label, 10> labels = {{{"strain", "equivalent strain"},
+constexpr std::array<Label, 11> labels = {{{"strain", "equivalent strain"},
                                            {"strain_eq", "equivalent strain"},
                                            {"von_mises", "von Mises stress"},
+                                           {"stress", "largest principal stress"},
                                            {"stretch", "largest stretch"},
                                            {"J", "change of volume J"},
                                            {"D2min", "non-affine motion D2min"},
@@ -93,6 +94,8 @@ FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset,
 
 /// Says how strong a pull the longest arrow of a run is.
 std::string FigureSet::arrow_scale(std::size_t run) const {
+  if (drawn(run).preset.view == View::arrows)
+    return ", longest arrow " + three_digits(drawn(run).range.high) + ' ' + drawn(run).unit();
   if (!drawn(run).pulls) return "";
   if (!drawn(run).is_pulled()) return ", no force";
   return ", longest arrow " + three_digits(drawn(run).range.high) + " N";
@@ -116,6 +119,9 @@ ColorScale FigureSet::scale() const {
     scale.names = names_of_materials(runs_.front()->files());
     scale.low = 0, scale.high = std::max(1.0, static_cast<double>(scale.names.size()) - 1);
   }
+  if (drawn(0).preset.view == View::arrows) scale.note = arrow_scale(0);
+  if (drawn(0).range.leaves_out && scale.note.empty() && !options_.range && scale.names.empty())
+    scale.note = ", 1st to 99th percentile";
   if (options_.range) scale.low = (*options_.range)[0], scale.high = (*options_.range)[1];
   if (!(scale.high > scale.low)) scale.high = scale.low + 1;  // nothing moves
   return scale;
@@ -153,7 +159,7 @@ FigureOptions FigureSet::figure_options(Finish finish) const {
   figure.width = options_.width;
   figure.height = options_.height;
   figure.finish = finish;
-  figure.paper = options_.backdrop.paper;
+  figure.paper = options_.files.backdrop.paper;
   figure.axes = options_.axes;
   return figure;
 }
@@ -194,7 +200,7 @@ int FigureSet::pictures() {
       options.paper = paper;
       return figure(panels(moment), options);
     };
-    write_png(drawn_on(options_.backdrop, on), place(name() + '_' + numbered(frame) + ".png"));
+    write_page(on, options_.files, place(name() + '_' + numbered(frame) + ".png"));
     options_.drawn();
   }
   return static_cast<int>(chosen.size());
@@ -218,7 +224,7 @@ void FigureSet::sheet() {
       sheet.paper = paper;
       return contact_sheet(rows, sheet);
     };
-    write_png(drawn_on(options_.backdrop, on), place(file));
+    write_page(on, options_.files, place(file));
   };
   // Several moments need more space.
   sheet.width = std::min(largest_picture, options_.width * 5 / 4);
@@ -252,7 +258,7 @@ Image FigureSet::movie_frame(std::size_t frame) {
   if (of_body())
     side_by_side = {{&painters_[0], &moment[0], View::surface, ""},
                     {&painters_[0], &moment[0], View::particles, ""}};
-  return figure(side_by_side, options);
+  return figure(side_by_side, options).pixels();
 }
 
 void FigureSet::movie(std::span<const FrameSource> others) {

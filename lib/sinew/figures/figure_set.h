@@ -25,7 +25,7 @@ struct FigureSetOptions {
   int width = 1280, height = 720;
   Mat3 view = three_quarter_view();
   ColorMap colors = ColorMap::indigo;
-  Backdrop backdrop;
+  PageFiles files;
   bool axes = false;  ///< the scene's, in a corner
   double orbit = 0;   ///< of the camera over the movie, about the body's upright axis, rad
   std::optional<std::array<double, 2>> range;  ///< of the colors; by default the run's own

@@ -114,14 +114,14 @@ Snapshot scene_snapshot(const RunFiles& run) {
 }
 
 void write_scene_picture(const Snapshot& scene, const ElevationOptions& options,
-                         const Backdrop& backdrop, const std::string& path) {
+                         const PageFiles& files, const std::string& path) {
   Painter painter(scene.surface, {});
   const auto on = [&](const Paper& paper) {
     ElevationOptions with_paper = options;
     with_paper.paper = paper;
     return elevations(painter, scene, with_paper);
   };
-  write_png(drawn_on(backdrop, on), path);
+  write_page(on, files, path);
 }
 
 }  // namespace sinew

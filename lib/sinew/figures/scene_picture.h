@@ -20,9 +20,9 @@ Snapshot scene_snapshot(const Prepared& prepared);
 /// The same from the files of its run.
 Snapshot scene_snapshot(const RunFiles& run);
 
-/// On `backdrop`, not on the paper of `options`. Needs a display. Throws not written, and as
-/// elevations() does.
+/// On the backdrop of `files`, not on the paper of `options`. Needs a display. Throws not written,
+/// and as elevations() does.
 void write_scene_picture(const Snapshot& scene, const ElevationOptions& options,
-                         const Backdrop& backdrop, const std::string& path);
+                         const PageFiles& files, const std::string& path);
 
 }  // namespace sinew

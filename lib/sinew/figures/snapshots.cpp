@@ -40,9 +40,11 @@ std::vector<SnapshotForce> arrows_of(const std::vector<ShownForce>& forces) {
   return arrows;
 }
 
-constexpr std::size_t max_arrows = 900;  // more would hide each other
 constexpr double longest_arrow = 0.25;   // of the body's longest side
-constexpr double shortest_arrow = 0.1;   // of the longest: shorter ones are dots
+constexpr double shortest_arrow = 0.05;  // of the longest: shorter ones are dots
+constexpr double arrow_spacing = 0.03;   // of the body's longest side: closer ones hide each other
+constexpr double weakest_line = 0.1;     // of the largest stress: below it lines of stress end
+constexpr double beside_plane = 1.1;     // radii: one layer of particles
 
 double largest_turn(const RunFiles& run, const RunFrame& frame) {
   double most = 0;
@@ -76,22 +78,17 @@ double root_mean_square(const std::vector<double>& values) {
   return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Whether the run has written that array of the particles.
-bool has_written(const RunFiles& run, const std::string& name) {
-  const auto file = run.folder.path / run.particle_rows.front().file;
-  return find(read_vtu(file, {name.c_str()}).point_columns, name) != nullptr;
-}
-
 /// What is shown where nobody asked for an array: strain as the run has written it. Of bodies for
 /// which it has not, since they are large, the displacement.
 std::string array_of(const ViewPreset& preset, const RunFiles& run) {
   if (preset.array != deformation) return std::string(preset.array);
-  return has_written(run, "strain_eq") ? "strain_eq" : "displacement";
+  return has_array(run, run.particle_rows.front(), "strain_eq") ? "strain_eq" : "displacement";
 }
 
 void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool first) {
   range.low = first ? other.low : std::min(range.low, other.low);
   range.high = first ? other.high : std::max(range.high, other.high);
+  range.leaves_out = range.leaves_out || other.leaves_out;
 }
 
 }  // namespace
@@ -115,8 +112,11 @@ DrawnView DrawnRun::applied(const ViewPreset& preset) const {
   if (preset.view != View::binding) {
     DrawnView drawn{preset, DrawnValues(run_, array), {}, {}, {}};
     const bool has_skin = preset.view == View::surface || preset.name == "body";
-    if (preset.view == View::halves || (has_skin && !options_.array.empty()))
+    if (preset.view == View::halves || preset.view == View::cut ||
+        (has_skin && !options_.array.empty()))
       drawn.skin.emplace(run_, drawn.values);
+    if (preset.view == View::cut || preset.view == View::curves)
+      drawn.volume = std::make_shared<DrawnVolume>(run_);
     return drawn;
   }
   if (!options_.array.empty())
@@ -154,6 +154,8 @@ DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,
     return {0, strongest};
   }
   std::vector<double> values;
+  if (drawn.preset.view == View::curves)
+    return {0, DrawnValues::range_of(largest_principals(drawn.values.column(index, frame))).high};
   if (!drawn.bonds) {
     if (drawn.preset.view != View::surface || !drawn.skin) values = drawn.values.at(index, frame);
     if (drawn.skin) {
@@ -172,6 +174,7 @@ void DrawnRun::read_overview() {
   overview_.around.axis = bounds(positions_of(run_.body.particles)).center();
   FramesInOrder frames(run_, options_.ahead);
   Box body;
+  JointTurns turns(run_);
   const auto extend = [this](const Snapshot& snapshot) {
     overview_.frame.extend(seen(options_.view, snapshot));
     overview_.around.extend(snapshot);
@@ -179,6 +182,7 @@ void DrawnRun::read_overview() {
   for (std::size_t i = 0; i < run_.frames(); ++i) {
     RunFrame frame = frames.next();
     overview_.angle.push_back(largest_turn(run_, frame));
+    turns.add(frame);
     overview_.shift.push_back(root_mean_square(frame.displacement));
     for (DrawnView& drawn : views_) widen(drawn.range, range_in(i, frame, drawn), i == 0);
     for (std::size_t k = 0; k < traced.size(); ++k)
@@ -186,6 +190,8 @@ void DrawnRun::read_overview() {
     body.extend(bounds(frame.positions)).extend(bounds(frame.surface_points));
     extend(snapshot_of(run_, std::move(frame), 0));
   }
+  overview_.plane =
+      options_.plane ? DrawnPlane(*options_.plane) : DrawnPlane(run_, turns, options_.view);
   overview_.obstacle_space = obstacle_space(body);
   for (std::size_t i = 0; i < run_.obstacle_rows.size(); ++i) {
     Snapshot obstacles;
@@ -254,6 +260,13 @@ void DrawnRun::halve(Snapshot& snapshot) const {
   keep(snapshot, [&](const Vec3& rest) { return right.dot(rest) > middle; });
 }
 
+/// The skin behind the plane alone.
+void DrawnRun::open_skin(Snapshot& snapshot, const CutPlane& plane) const {
+  snapshot.skin_sides.clear();
+  for (const Vec3& point : snapshot.surface.points)
+    snapshot.skin_sides.push_back(plane.distance(point));
+}
+
 void DrawnRun::color_skin(Snapshot& snapshot, std::vector<double> values) const {
   snapshot.skin_values = std::move(values);
   for (std::size_t i = 0; i < snapshot.skin_values.size(); ++i) {
@@ -263,18 +276,32 @@ void DrawnRun::color_skin(Snapshot& snapshot, std::vector<double> values) const 
   }
 }
 
-void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const {
+/// Arrows of the particles beside the plane: the strongest first, none close to another.
+void DrawnRun::add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn,
+                          const CutPlane& plane) const {
   const Points vectors = drawn_vectors(run_, index, drawn.values.name());
   const double size = bounds(positions_of(run_.body.particles)).sizes().maxCoeff();
   const double strongest = drawn.range.high;
   if (!(strongest > 0)) return;
-  const std::size_t stride = std::max<std::size_t>(1, vectors.size() / max_arrows);
-  for (std::size_t i = 0; i < vectors.size(); i += stride) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    if (vectors[i].norm() > shortest_arrow * strongest && is_selected(i) &&
+        std::abs(plane.distance(snapshot.particles[i])) < beside_plane * snapshot.radius)
+      order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return vectors[a].squaredNorm() > vectors[b].squaredNorm();
+  });
+  const double apart = std::max(arrow_spacing * size, 1.9 * snapshot.radius);
+  for (const std::size_t i : order) {
+    const Vec3& from = snapshot.particles[i];
+    if (std::any_of(snapshot.arrows.begin(), snapshot.arrows.end(),
+                    [&](const SnapshotArrow& other) { return (other.from - from).norm() < apart; }))
+      continue;
     const double force = vectors[i].norm();
-    if (!(force > shortest_arrow * strongest) || !is_selected(i)) continue;
     const double length = longest_arrow * size * std::min(1.0, force / strongest);
-    snapshot.arrows.push_back({snapshot.particles[i], length / force * vectors[i], force});
+    snapshot.arrows.push_back({from, length / force * vectors[i], force});
   }
+  open_skin(snapshot, plane);
 }
 
 /// Shows these particles alone, each with its reference point and the arrows of its forces.
@@ -333,15 +360,25 @@ void DrawnRun::add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView&
 
 Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   RunFrame frame = read_frame(run_, index);
-  const bool shows_particles = drawn.preset.view != View::surface || !drawn.skin;
+  const View view = drawn.preset.view;
+  const CutPlane plane = overview_.plane->at(frame);
+  const bool shows_particles = view != View::curves && (view != View::surface || !drawn.skin);
   std::vector<double> values, of_skin;
   if (shows_particles) values = drawn.values.at(index, frame);
   if (drawn.skin) of_skin = drawn.skin->at(index, frame);
   std::vector<DrawnPull> pulls;
   if (drawn.pulls) pulls = drawn.pulls->at(frame);
+  SnapshotCut cut;
+  if (view == View::cut) cut = drawn.volume->cut(index, frame, values, plane);
+  std::vector<SnapshotCurve> curves;
+  if (view == View::curves)
+    curves = drawn.volume->lines(index, frame, drawn.values.column(index, frame),
+                                 weakest_line * drawn.range.high);
   Snapshot snapshot = snapshot_of(run_, std::move(frame), overview_.angle[index]);
   snapshot.values = std::move(values);
   snapshot.marks = marks_;
+  snapshot.cut = std::move(cut);
+  snapshot.curves = std::move(curves);
   show_selected(snapshot);
   color_skin(snapshot, std::move(of_skin));
   add_obstacles(snapshot, index);
@@ -350,8 +387,9 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   if (drawn.pulls) add_pulls(snapshot, pulls, drawn);
   if (drawn.bonds) add_bonds(snapshot, index, drawn);
   if (drawn.preset.cut_open) cut_open(snapshot);
-  if (drawn.preset.view == View::halves) halve(snapshot);
-  if (drawn.preset.view == View::arrows) add_arrows(snapshot, index, drawn);
+  if (view == View::halves) halve(snapshot);
+  if (view == View::cut) open_skin(snapshot, plane);
+  if (view == View::arrows) add_arrows(snapshot, index, drawn, plane);
   return snapshot;
 }
 

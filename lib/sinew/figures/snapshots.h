@@ -6,11 +6,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <sinew/figures/drawn_plane.h>
 #include <sinew/figures/drawn_values.h>
+#include <sinew/figures/drawn_volume.h>
 #include <sinew/figures/key_moments.h>
 #include <sinew/figures/view_presets.h>
 #include <sinew/render/snapshot.h>
@@ -34,7 +37,8 @@ struct DrawnView {
   std::optional<DrawnSkin> skin;    ///< where the skin is colored
   std::optional<DrawnBonds> bonds;  ///< where the preset's view is of lines: colored instead
   std::optional<DrawnPulls> pulls;  ///< where it is of the binding
-  DrawnValues::Range range = {};    ///< of what is colored or drawn as arrows, over all frames
+  std::shared_ptr<const DrawnVolume> volume = nullptr;  ///< where it is of the volume
+  DrawnValues::Range range = {};  ///< of what is colored or drawn as arrows, over all frames
 
   /// The largest force is drawn as the longest arrow; false where all are rounding.
   bool is_pulled() const { return pulls && range.high > pulls->negligible(); }
@@ -48,7 +52,8 @@ struct RunOverview {
   Box frame;                  ///< around the body at all times, in the camera's directions
   Cylinder around;            ///< the upright axis through its middle at rest, at all times
   Box obstacle_space = {};    ///< around it, m
-  std::vector<Points> paths;  ///< of the traced particles, one point per frame, m
+  std::optional<DrawnPlane> plane = {};  ///< by which views cut the body open
+  std::vector<Points> paths;             ///< of the traced particles, one point per frame, m
 };
 
 struct DrawnRunOptions {
@@ -58,7 +63,8 @@ struct DrawnRunOptions {
   std::vector<std::string> bones;  ///< by name: these alone are drawn; the particles of others are
                                    ///< gray, without arrows; empty: all
   std::vector<int> traced;         ///< ids of the particles whose paths are drawn
-  bool ahead = true;               ///< reads frames in another thread
+  std::optional<CutPlane> plane = {};  ///< none: through the joint that turns most
+  bool ahead = true;                   ///< reads frames in another thread
 };
 
 class DrawnRun {
@@ -94,9 +100,11 @@ class DrawnRun {
   void keep(Snapshot& snapshot, const std::function<bool(const Vec3&)>& is_kept) const;
   void cut_open(Snapshot& snapshot) const;
   void halve(Snapshot& snapshot) const;
+  void open_skin(Snapshot& snapshot, const CutPlane& plane) const;
   void color_skin(Snapshot& snapshot, std::vector<double> values) const;
   void add_obstacles(Snapshot& snapshot, std::size_t index) const;
-  void add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
+  void add_arrows(Snapshot& snapshot, std::size_t index, const DrawnView& drawn,
+                  const CutPlane& plane) const;
 
   RunFiles run_;
   DrawnRunOptions options_;

@@ -12,16 +12,20 @@
 namespace sinew {
 namespace {
 
-constexpr std::array<ViewPreset, 10> all_view_presets = {{
+constexpr std::array<ViewPreset, 12> all_view_presets = {{
     {"body", View::both, false, deformation, "particles within the skin's edges, and the bones"},
     {"surface", View::surface, false, "displacement",
      "the skin, in color where an array is named, the bones shining through"},
     {"halves", View::halves, false, "strain",
      "half of the skin, beside it the particles, in color"},
+    {"cut", View::cut, false, "strain",
+     "the volume cut by a plane, in color, and the skin behind it"},
     {"particles", View::particles, false, "displacement", "spheres of their true size"},
     {"section", View::both, true, deformation, "the body cut open along its middle"},
     {"strain", View::particles, false, "strain", "particles by their equivalent strain"},
-    {"forces", View::arrows, false, "force_pair", "arrows of a force within the pale skin"},
+    {"lines", View::curves, false, "stress",
+     "lines along the largest principal stress within the pale skin"},
+    {"forces", View::arrows, false, "force_pair", "arrows of a force on the plane of cut"},
     {"bonds", View::lines, false, "strain", "the bonds as lines within the pale skin"},
     {"bones", View::bones, false, "displacement", "the bones and their axes in the pale skin"},
     {"binding", View::binding, false, "displacement",
@@ -68,6 +72,19 @@ const ViewPreset& view_preset_named(const std::string& name) {
 ColorMap color_map_named(const std::string& name) {
   return entry_named(color_maps(), name, "color map").map;
 }
+
+std::span<const Look> looks() {
+  static constexpr std::array<Look, 3> all = {
+      {{"screen", "white", 1280, 720, 0, "for screens"},
+       {"paper", "white", 2126, 1196, 180,
+        "for print: 180 mm wide at 300 dots per inch, beside each PNG an SVG with words and "
+        "legends "
+        "as vectors"},
+       {"dark", "#15181d", 1280, 720, 0, "on a dark background"}}};
+  return all;
+}
+
+const Look& look_named(const std::string& name) { return entry_named(looks(), name, "look"); }
 
 Backdrop backdrop_named(const std::string& text) {
   if (text == "transparent") return {{}, true};

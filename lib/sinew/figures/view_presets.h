@@ -34,6 +34,17 @@ ColorMap color_map_named(const std::string& name);
 /// A color by name or as `#rrggbb`, or "transparent". Throws bad input for other text.
 Backdrop backdrop_named(const std::string& text);
 
+/// How pictures look as a whole.
+struct Look {
+  std::string_view name, background;
+  int width = 1280, height = 720;  ///< of pictures, pixels
+  double print_width = 0;          ///< mm: see PageFiles
+  std::string_view help;
+};
+
+std::span<const Look> looks();
+const Look& look_named(const std::string& name);
+
 /// "three_quarter", "front", "back", "left", "right", "top", or the direction towards the viewer as
 /// "1,-2,0.5". Throws bad input for anything else.
 Mat3 view_named(const std::string& text);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
-#include <sinew/render/detail/text.h>
 
 namespace sinew {
 
@@ -101,42 +100,33 @@ Camera camera_of(const Elevation& elevation, const Plan& plan) {
 }
 
 /// A frame with ticks outside of it and their numbers in meters.
-void draw_axes(Image& image, const Elevation& elevation, const Plan& plan) {
+void draw_axes(Page& page, const Elevation& elevation, const Plan& plan) {
   const int x = elevation.x, right = x + elevation.width, bottom = plan.top + plan.height;
   const int tick = plan.words.size / 2;
   TextStyle numbers = plan.words;
   numbers.color = palette::faint_ink;
-  fill(image, x, bottom, elevation.width, 1, palette::faint_ink);
-  fill(image, x, plan.top, 1, plan.height, palette::faint_ink);
+  page.fill(x, bottom, elevation.width, 1, palette::faint_ink);
+  page.fill(x, plan.top, 1, plan.height, palette::faint_ink);
   numbers.align = Align::center;
   for (int k = elevation.ticks.first; k <= elevation.ticks.last; ++k) {
     const double value = elevation.ticks.at(k);
     const int at = x + static_cast<int>((value - elevation.ticks.low()) / plan.pixel);
-    fill(image, at, bottom, 1, tick, palette::faint_ink);
-    write_text(image, number_text(value), at, bottom + tick + 2, numbers);
+    page.fill(at, bottom, 1, tick, palette::faint_ink);
+    page.write(number_text(value), at, bottom + tick + 2, numbers);
   }
-  write_text(image, std::string(elevation.across) + " (m)", (x + right) / 2,
+  page.write(std::string(elevation.across) + " (m)", (x + right) / 2,
              bottom + tick + line_height(numbers), numbers);
   numbers.align = Align::right;
   for (int k = plan.up.first; k <= plan.up.last; ++k) {
     const double value = plan.up.at(k);
     const int at = bottom - static_cast<int>((value - plan.up.low()) / plan.pixel);
-    fill(image, x - tick, at, tick, 1, palette::faint_ink);
-    write_text(image, number_text(value), x - tick - 4, at - 3 * numbers.size / 5, numbers);
+    page.fill(x - tick, at, tick, 1, palette::faint_ink);
+    page.write(number_text(value), x - tick - 4, at - 3 * numbers.size / 5, numbers);
   }
-  write_text(image, "z (m)", x - 4, plan.top - 2 * numbers.size, numbers);
+  page.write("z (m)", x - 4, plan.top - 2 * numbers.size, numbers);
   TextStyle title = plan.words;
   title.align = Align::center;
-  write_text(image, elevation.title, (x + right) / 2, plan.words.size / 3, title);
-}
-
-void draw_disc(Image& image, int x, int y, double radius, const Color& color) {
-  const int reach = static_cast<int>(std::ceil(radius));
-  for (int row = -reach; row <= reach; ++row) {
-    const double half = std::sqrt(std::max(0.0, radius * radius - row * row));
-    const int wide = std::max(1, static_cast<int>(std::lround(2 * half)));
-    if (std::abs(row) <= radius) fill(image, x - wide / 2, y + row, wide, 1, color);
-  }
+  page.write(elevation.title, (x + right) / 2, plan.words.size / 3, title);
 }
 
 struct LegendEntry {
@@ -160,34 +150,34 @@ std::vector<LegendEntry> legend_of(const Snapshot& snapshot, const Plan& plan) {
   return entries;
 }
 
-void draw_legend(Image& image, const Snapshot& snapshot, const Plan& plan) {
+void draw_legend(Page& page, const Snapshot& snapshot, const Plan& plan) {
   const int size = plan.words.size;
   int x = 2 * size;
   const int y = plan.legend + line_height(plan.words) / 3;
-  write_text(image, snapshot.caption, x, y + line_height(plan.words), plan.words);
+  page.write(snapshot.caption, x, y + line_height(plan.words), plan.words);
   for (const LegendEntry& entry : legend_of(snapshot, plan)) {
     x += static_cast<int>(std::ceil(entry.radius));
-    draw_disc(image, x, y + 3 * size / 5, entry.radius, entry.color);
+    page.disc(x, y + 0.6 * size, entry.radius, entry.color);
     x += static_cast<int>(std::ceil(entry.radius)) + size / 2;
-    write_text(image, entry.words, x, y, plan.words);
+    page.write(entry.words, x, y, plan.words);
     x += static_cast<int>(entry.words.size()) * size / 2 + 2 * size;
   }
 }
 
 }  // namespace
 
-Image elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options) {
+Page elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options) {
   const Plan plan = plan_of(snapshot, options);
-  Image image(options.width, options.height, options.paper.background);
+  Page page(options.width, options.height, options.paper.background);
   for (const Elevation& elevation : plan.elevations) {
     const PictureOptions picture{
         View::plan,   camera_of(elevation, plan), elevation.width, plan.height, 0, options.finish,
         options.paper};
-    paste(image, painter.draw(snapshot, picture), elevation.x, plan.top);
-    draw_axes(image, elevation, plan);
+    page.add(painter.draw(snapshot, picture), elevation.x, plan.top);
+    draw_axes(page, elevation, plan);
   }
-  draw_legend(image, snapshot, plan);
-  return image;
+  draw_legend(page, snapshot, plan);
+  return page;
 }
 
 }  // namespace sinew

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A body from the front and from the side, to one scale, with axes in meters.
 //
-//     write_png(elevations(painter, snapshot, {.width = 1280}), "scene.png");
+//     write_png(elevations(painter, snapshot, {.width = 1280}).pixels(), "scene.png");
 #pragma once
 
 #include <vector>
 
+#include <sinew/render/page.h>
 #include <sinew/render/picture.h>
 
 namespace sinew {
@@ -32,6 +33,6 @@ struct ElevationOptions {
 
 /// Front (x to the right) and side (y to the right), z up, as View::plan shows them; below them the
 /// caption, and what balls and colors mean. Throws as Painter::draw does.
-Image elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options);
+Page elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options);
 
 }  // namespace sinew

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include <sinew/core/error.h>
+#include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/render/detail/text.h>
-#include <sinew/render/detail/tripod.h>
+#include <sinew/render/detail/keys.h>
 
 namespace sinew {
 
@@ -40,37 +41,46 @@ Layout layout_of(const std::vector<Panel>& panels, const FigureOptions& options)
 
 }  // namespace
 
-Image drawn_on(const Backdrop& backdrop, const std::function<Image(const Paper&)>& draw) {
-  if (!backdrop.transparent) return draw(backdrop.paper);
-  const Color& ink = backdrop.paper.ink;
-  return cut_out(draw({{255, 255, 255}, ink}), draw({{0, 0, 0}, ink}));
+Image without_background(const Color& ink, const std::function<Page(const Paper&)>& draw) {
+  const auto on = [&](const Color& background) { return draw({background, ink}).pixels(); };
+  return cut_out(on({255, 255, 255}), on({0, 0, 0}));
 }
 
-Image figure(const std::vector<Panel>& panels, const FigureOptions& options) {
+void write_page(const std::function<Page(const Paper&)>& draw, const PageFiles& files,
+                const std::string& path) {
+  if (files.backdrop.transparent)
+    return write_png(without_background(files.backdrop.paper.ink, draw), path);
+  const Page page = draw(files.backdrop.paper);
+  write_png(page.pixels(), path);
+  if (files.print_width > 0)
+    write_file(std::filesystem::path(path).replace_extension(".svg"), page.svg(files.print_width));
+}
+
+Page figure(const std::vector<Panel>& panels, const FigureOptions& options) {
   if (panels.empty()) throw bad_input("a figure needs panels", "give at least one");
   const Layout layout = layout_of(panels, options);
-  Image image(options.width, options.height, options.paper.background);
+  Page page(options.width, options.height, options.paper.background);
   int x = layout.margin;
   for (const Panel& panel : panels) {
     const PictureOptions picture{panel.view, options.camera, layout.wide,  layout.high,
                                  4,          options.finish, options.paper};
-    paste(image, panel.painter->draw(*panel.snapshot, picture), x, layout.top);
+    page.add(panel.painter->draw(*panel.snapshot, picture), x, layout.top);
     TextStyle title = layout.words;
     title.align = Align::center;
-    write_text(image, panel.title, x + layout.wide / 2, layout.margin / 2, title);
+    page.write(panel.title, x + layout.wide / 2, layout.margin / 2, title);
     x += layout.wide + layout.margin;
   }
   if (options.axes)
-    draw_tripod(image, options.camera.view, layout.margin, layout.top + layout.high,
+    draw_tripod(page, options.camera.view, layout.margin, layout.top + layout.high,
                 tripod_size(layout.wide, layout.high));
-  write_text(image, panels.front().snapshot->caption, 2 * layout.margin, layout.foot, layout.words);
+  page.write(panels.front().snapshot->caption, 2 * layout.margin, layout.foot, layout.words);
   if (std::none_of(panels.begin(), panels.end(),
                    [](const Panel& panel) { return shows_values(panel.view, *panel.snapshot); }))
-    return image;
+    return page;
   const int bar = std::min(options.width / 3, 3 * options.height / 5);
-  draw_color_bar(image, panels.front().painter->scale(), options.width - 2 * layout.margin - bar,
+  draw_color_bar(page, panels.front().painter->scale(), options.width - 2 * layout.margin - bar,
                  layout.foot, bar, layout.words);
-  return image;
+  return page;
 }
 
 namespace {
@@ -169,9 +179,9 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   return layout;
 }
 
-void draw_row(Image& sheet, const SheetRow& row, int y, const SheetLayout& layout,
+void draw_row(Page& sheet, const SheetRow& row, int y, const SheetLayout& layout,
               const SheetOptions& options) {
-  write_text(sheet, row.title, layout.margin, y - line_height(layout.text), layout.text);
+  sheet.write(row.title, layout.margin, y - line_height(layout.text), layout.text);
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const Column& column = layout.columns[i];
     const PictureOptions panel{row.view,
@@ -181,17 +191,17 @@ void draw_row(Image& sheet, const SheetRow& row, int y, const SheetLayout& layou
                                1,
                                options.finish,
                                options.paper};
-    paste(sheet, row.painter->draw((*row.snapshots)[i], panel), column.x, y);
+    sheet.add(row.painter->draw((*row.snapshots)[i], panel), column.x, y);
   }
 }
 
-void write_captions(Image& sheet, const std::vector<Snapshot>& snapshots,
+void write_captions(Page& sheet, const std::vector<Snapshot>& snapshots,
                     const SheetLayout& layout) {
   TextStyle words = layout.text;
   words.align = Align::center;
   for (std::size_t i = 0; i < snapshots.size(); ++i)
-    write_text(sheet, snapshots[i].caption, layout.columns[i].x + layout.columns[i].width / 2,
-               layout.captions, words);
+    sheet.write(snapshots[i].caption, layout.columns[i].x + layout.columns[i].width / 2,
+                layout.captions, words);
 }
 
 /// The longest of 1, 2 and 5 times a power of ten, m, that is no longer than `most`.
@@ -210,20 +220,20 @@ std::string length_text(double meters) {
 }
 
 /// A bar of a round length at the foot's left, to the scale of the panels.
-void draw_scale_bar(Image& sheet, const SheetLayout& layout, int x, const Color& ink) {
+void draw_scale_bar(Page& sheet, const SheetLayout& layout, int x, const Color& ink) {
   const double length = round_length(0.16 * layout.width / layout.scale);
   const int pixels = static_cast<int>(std::lround(length * layout.scale));
   const int thick = std::max(2, layout.text.size / 8), y = layout.bar + line_height(layout.small());
-  fill(sheet, x, y, pixels, thick, ink);
+  sheet.fill(x, y, pixels, thick, ink);
   for (const int end : {x, x + pixels - thick})
-    fill(sheet, end, y - 2 * thick, thick, 5 * thick, ink);
+    sheet.fill(end, y - 2 * thick, thick, 5 * thick, ink);
   TextStyle words = layout.small();
   words.align = Align::center;
-  write_text(sheet, length_text(length), x + pixels / 2, y + 4 * thick, words);
+  sheet.write(length_text(length), x + pixels / 2, y + 4 * thick, words);
 }
 
 /// Says at the foot's right what the colors of the bones' axes stand for.
-void draw_axes_key(Image& sheet, const SheetLayout& layout) {
+void draw_axes_key(Page& sheet, const SheetLayout& layout) {
   static constexpr std::array<const char*, 3> meanings = {"along the bone", "its side y",
                                                           "its side z"};
   const TextStyle words = layout.small();
@@ -231,18 +241,18 @@ void draw_axes_key(Image& sheet, const SheetLayout& layout) {
   const int x = layout.width - layout.margin / 2 - 9 * words.size;
   int y = layout.bar;
   for (std::size_t axis = 0; axis < meanings.size(); ++axis, y += line) {
-    fill(sheet, x, y + line / 2 - side / 2, side, side, palette::axes[axis]);
-    write_text(sheet, meanings[axis], x + 2 * side, y, words);
+    sheet.fill(x, y + line / 2 - side / 2, side, side, palette::axes[axis]);
+    sheet.write(meanings[axis], x + 2 * side, y, words);
   }
 }
 
 bool has_bones(const std::vector<SheetRow>& rows) {
   return std::any_of(rows.begin(), rows.end(), [](const SheetRow& row) {
-    return !row.snapshots->front().bones.empty() && row.view != View::particles;
+    return !row.snapshots->front().bones.empty() && shows_axes(row.view);
   });
 }
 
-void draw_foot(Image& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
+void draw_foot(Page& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
                const SheetOptions& options) {
   const int corner = options.axes ? (layout.height - layout.bar) : 0;
   if (options.axes)
@@ -265,14 +275,14 @@ void check(const std::vector<SheetRow>& rows) {
 
 }  // namespace
 
-Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options) {
+Page contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options) {
   check(rows);
   const SheetLayout layout = layout_of(rows, options);
-  Image sheet(layout.width, layout.height, options.paper.background);
+  Page sheet(layout.width, layout.height, options.paper.background);
   for (std::size_t i = 0; i < rows.size(); ++i)
     draw_row(sheet, rows[i], layout.rows[i], layout, options);
   write_captions(sheet, *rows.front().snapshots, layout);
-  write_text(sheet, options.title, layout.margin, layout.margin / 2, layout.text);
+  sheet.write(options.title, layout.margin, layout.margin / 2, layout.text);
   draw_foot(sheet, rows, layout, options);
   return sheet;
 }

@@ -2,13 +2,14 @@
 // A picture with text: one or more panels side by side, and below them the caption and the color
 // bar.
 //
-//     write_png(figure({{&painter, &snapshot}}, {.camera = camera}), "bent.png");
+//     write_png(figure({{&painter, &snapshot}}, {.camera = camera}).pixels(), "bent.png");
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
+#include <sinew/render/page.h>
 #include <sinew/render/picture.h>
 
 namespace sinew {
@@ -31,7 +32,7 @@ struct FigureOptions {
 
 /// The caption is that of the first panel's snapshot, the color scale that of its painter: all
 /// panels share it. Throws bad input without panels, and as Painter::draw does.
-Image figure(const std::vector<Panel>& panels, const FigureOptions& options);
+Page figure(const std::vector<Panel>& panels, const FigureOptions& options);
 
 /// What pictures are drawn on; nothing where `transparent`, with the ink of `paper`.
 struct Backdrop {
@@ -39,8 +40,19 @@ struct Backdrop {
   bool transparent = false;
 };
 
-/// What `draw` draws on that background; twice for a transparent one, which it has to cut out.
-Image drawn_on(const Backdrop& backdrop, const std::function<Image(const Paper&)>& draw);
+/// What `draw` draws, without its background: it is drawn on white and on black.
+Image without_background(const Color& ink, const std::function<Page(const Paper&)>& draw);
+
+/// The files of a page.
+struct PageFiles {
+  Backdrop backdrop;
+  double print_width = 0;  ///< mm: the page is written as SVG, too; 0: it is not
+};
+
+/// Writes the page that `draw` draws on that background to `path`, which ends with .png; twice
+/// drawn for a transparent one, which has to be cut out. Throws not written.
+void write_page(const std::function<Page(const Paper&)>& draw, const PageFiles& files,
+                const std::string& path);
 
 // A contact sheet: a run in one picture, moments from left to right, views below each other.
 
@@ -66,7 +78,7 @@ struct SheetOptions {
 /// All panels to one scale; below them the captions of the first row's snapshots and the color
 /// scale of its painter. Throws bad input without rows or snapshots, for rows of different lengths,
 /// and as Painter::draw does.
-Image contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
+Page contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
 
 /// Follows the paper's figure 4: the surface above, the particles below, over time.
 std::vector<SheetRow> surface_above_particles(Painter& painter,

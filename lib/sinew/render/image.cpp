@@ -141,18 +141,22 @@ void copy_flipped(const Image& image, vtkImageData& out) {
 
 }  // namespace
 
-void write_png(const Image& image, const std::string& path) {
+std::string png_of(const Image& image) {
   vtkNew<vtkImageData> data;
   copy_flipped(image, *data);
   vtkNew<vtkPNGWriter> writer;  // to memory: VTK does not detect a full disk
   writer->SetInputData(data);
   writer->WriteToMemoryOn();
   writer->Write();
-  const vtkUnsignedCharArray* bytes = writer->GetResult();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+          static_cast<std::size_t>(bytes->GetNumberOfValues())};
+}
+
+void write_png(const Image& image, const std::string& path) {
+  const std::string bytes = png_of(image);
   NewFile file(path);
-  file.write(
-      const_cast<vtkUnsignedCharArray*>(bytes)->GetPointer(0),
-      static_cast<std::size_t>(const_cast<vtkUnsignedCharArray*>(bytes)->GetNumberOfValues()));
+  file.write(bytes.data(), bytes.size());
   file.finish();
 }
 

@@ -40,6 +40,9 @@ void fill(Image& image, int x, int y, int width, int height, const Color& color)
 /// a pixel in part, both differ in part. Throws bad input for images of different sizes.
 Image cut_out(const Image& on_white, const Image& on_black);
 
+/// The bytes of its PNG file.
+std::string png_of(const Image& image);
+
 /// Writes `path` atomically. Throws not written.
 void write_png(const Image& image, const std::string& path);
 

@@ -27,6 +27,11 @@ void check(const Snapshot& snapshot, const Shading& skin, const PictureOptions& 
     if (!values->empty() && values->size() != snapshot.surface.points.size())
       throw bad_input("a snapshot has not one value per point of its surface",
                       "give one each, or none");
+  if (snapshot.cut.values.size() != snapshot.cut.points.size())
+    throw bad_input("a snapshot has not one value per point of its cut", "give one each");
+  for (const SnapshotCurve& curve : snapshot.curves)
+    if (curve.values.size() != curve.points.size())
+      throw bad_input("a snapshot has not one value per point of its curves", "give one each");
   for (const int point : skin.source)
     if (point >= static_cast<int>(snapshot.surface.points.size()))
       throw bad_input("a snapshot's surface has fewer points than at rest",
@@ -162,6 +167,7 @@ Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool s
 Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes, bool beside_particles) {
   add_skin(stage_.renderer(), snapshot, skin_, scale_);
   if (beside_particles) add_particles(stage_.renderer(), snapshot, scale_);
+  add_cut(stage_.renderer(), snapshot, scale_, {1.4 * sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
@@ -230,7 +236,7 @@ Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
 }
 
 Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) {
-  if (view == View::surface || view == View::halves)
+  if (view == View::surface || view == View::halves || view == View::cut)
     return surface(snapshot, sizes, view == View::halves);
   if (view == View::particles || view == View::both)
     return particles(snapshot, sizes, view == View::both);
@@ -242,6 +248,8 @@ Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) 
   if (view == View::binding) add_binding(snapshot, sizes);
   if (view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
   if (view == View::lines) add_lines(stage_.renderer(), snapshot, scale_, sizes.line);
+  if (view == View::curves)
+    add_curves(stage_.renderer(), snapshot, scale_, std::max(0.5 * sizes.grain, 3 * sizes.pixel));
   if (view == View::plan)
     for (const Mark mark : {Mark::held, Mark::loaded, Mark::sample})
       add_particles(stage_.renderer(), marked(snapshot, mark), scale_);

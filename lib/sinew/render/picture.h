@@ -14,9 +14,11 @@ enum class View {
   surface,    ///< the skin, colored by its values if it has some, the bones visible through it
   particles,  ///< spheres of their true size, colored by their values
   halves,     ///< a part of the skin, and beside it the particles, with the bones through both
+  cut,        ///< the skin of one side of the snapshot's cut, and the cut, colored by its values
   both,       ///< the particles inside the wireframe of the skin, and the bones
   arrows,     ///< the snapshot's arrows inside a pale skin
   lines,      ///< the snapshot's lines inside a pale skin
+  curves,     ///< the snapshot's curves inside a pale skin
   bones,      ///< the bones and their axes inside a pale skin
   binding,    ///< the bones, the particles with the lines to their reference points and the arrows
               ///< of their forces inside a pale skin
@@ -25,9 +27,16 @@ enum class View {
 
 /// Whether the colors of this view of a snapshot show values.
 inline bool shows_values(View view, const Snapshot& snapshot) {
-  return view == View::particles || view == View::halves || view == View::both ||
-         view == View::arrows || view == View::lines || view == View::binding ||
+  return view == View::particles || view == View::halves || view == View::cut ||
+         view == View::both || view == View::arrows || view == View::lines ||
+         view == View::curves || view == View::binding ||
          (view == View::surface && !snapshot.skin_values.empty());
+}
+
+/// Whether this view shows the axes of bones.
+inline bool shows_axes(View view) {
+  return view == View::surface || view == View::halves || view == View::cut || view == View::both ||
+         view == View::bones || view == View::plan;
 }
 
 struct PictureOptions {

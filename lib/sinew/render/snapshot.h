@@ -4,6 +4,7 @@
 //     Snapshot snapshot{.caption = "t = 1 s", .particles = points, .radius = 0.01};
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -37,6 +38,20 @@ struct SnapshotLine {
   double value = 0;                             ///< shown in color
 };
 
+/// A curve, such as a line of stress, with a value at each of its points.
+struct SnapshotCurve {
+  Points points;               ///< n x 3, m
+  std::vector<double> values;  ///< shown in color
+};
+
+/// The body as tetrahedra cut open by a plane.
+struct SnapshotCut {
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitY();  ///< m; the part toward `normal` is left out
+  Points points;                                      ///< n x 3, m
+  std::vector<double> values;                         ///< one per point, shown in color
+  std::vector<std::array<std::uint32_t, 4>> cells;    ///< those that the plane crosses
+};
+
 /// The path of a picked particle up to this moment.
 struct SnapshotTrace {
   Points path;        ///< n x 3, m; ends where the particle is
@@ -65,6 +80,8 @@ struct Snapshot {
   std::vector<SnapshotBone> bones;
   std::vector<SnapshotArrow> arrows;
   std::vector<SnapshotLine> lines;
+  std::vector<SnapshotCurve> curves;
+  SnapshotCut cut;
   Points references;                  ///< where bones hold particles, m, drawn as small balls
   std::vector<SnapshotTrace> traces;  ///< over everything else
   std::vector<SnapshotForce> forces;  ///< over everything else
@@ -84,6 +101,7 @@ struct ColorScale {
   ColorMap map = ColorMap::indigo;
   std::vector<std::string> names = {};  ///< of the values 0, 1, ... up to `high`, if they have any
   std::vector<Color> colors = {};       ///< of these values; empty: those of the map
+  std::string note = {};                ///< beside the name, as ", 1st to 99th percentile"
 
   /// Position of `value` between low and high: 0 .. 1, clamped; not-a-number of not-a-number.
   double position(double value) const;

@@ -118,6 +118,17 @@ std::vector<ParticlePair> broken_in(const std::filesystem::path& file) {
   return pairs;
 }
 
+VolumeFrames frames_of(const RunFiles& run) {
+  if (!run.ids.empty())
+    throw bad_input(Place{run.folder.path.string()}, "has not written all particles",
+                    "run the scene without output.region and output.inside_every");
+  const Points rest = positions_of(run.body.particles);
+  const double radius = run.body.particles.radius;
+  const Surface surface = read_mesh(run.settings);
+  return {cells_of_body(run.settings, surface, rest, radius), rest, radius, run.skeleton,
+          binding_of(*run.body.bone)};
+}
+
 std::vector<char> apart_in(const RunFiles& run, std::size_t frame, const Dataset& particles,
                            const VolumeFrames& volume) {
   const std::span<const ParticlePair> pairs = volume.pairs();
@@ -143,28 +154,27 @@ void list_files(const std::filesystem::path& folder, const std::vector<PvdRow>& 
 
 }  // namespace
 
+RunVolume::RunVolume(const RunFiles& run) : run_(&run), frames_(frames_of(run)) {}
+
+Dataset RunVolume::at(std::size_t index, const Dataset& particles) const {
+  return frames_.at(particles, apart_in(*run_, index, particles, frames_));
+}
+
 ExportedVolume export_volume(const RunFiles& run, const std::vector<std::size_t>& frames,
                              const std::filesystem::path& folder) {
-  if (!run.ids.empty())
-    throw bad_input(Place{run.folder.path.string()}, "has not written all particles",
-                    "run the scene without output.region and output.inside_every");
-  const Points rest = positions_of(run.body.particles);
-  const double radius = run.body.particles.radius;
-  const Surface surface = read_mesh(run.settings);
-  const VolumeFrames volume(cells_of_body(run.settings, surface, rest, radius), rest, radius,
-                            run.skeleton, binding_of(*run.body.bone));
+  const RunVolume volume(run);
   const OutputSettings& output = run.settings.output;
   Series series(folder, {.encoding = output.encoding,
                          .double_precision = output.double_precision,
                          .series = "volume",
-                         .radius = radius});
+                         .radius = run.body.particles.radius});
   for (const std::size_t frame : frames) {
     const auto file = run.folder.path / run.particle_rows[frame].file;
     const Dataset particles = read_vtu(file);
-    if (particles.points.size() != rest.size())
+    if (particles.points.size() != run.body.particles.size())
       throw bad_input(Place{file.string()}, "is of another body",
                       "run the scene again with --force");
-    series.add(volume.at(particles, apart_in(run, frame, particles, volume)));
+    series.add(volume.at(frame, particles));
   }
   series.close();
   if (std::filesystem::equivalent(folder, run.folder.path)) list_files(folder, series.rows());

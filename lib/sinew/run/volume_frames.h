@@ -56,15 +56,30 @@ Dataset in_single_precision(Dataset particles, double radius);
 /// The cells of a scene's body, where it asks for them (output.volume).
 std::optional<VolumeCells> cells_to_write(const Prepared& prepared);
 
+/// The cells of a run's body in its frames. Of bonds that may break, those count as broken that the
+/// run has written so, or else the longest ones of particles that have lost some.
+class RunVolume {
+ public:
+  /// The run must outlive this object. Throws bad input for a run that has not written all
+  /// particles, or whose mesh has changed.
+  explicit RunVolume(const RunFiles& run);
+
+  std::size_t cells() const { return frames_.cells(); }
+  /// `particles`: all of them in frame `index`, with `broken_bonds` where the run has written it.
+  Dataset at(std::size_t index, const Dataset& particles) const;
+
+ private:
+  const RunFiles* run_;
+  VolumeFrames frames_;
+};
+
 struct ExportedVolume {
   std::size_t frames = 0, cells = 0;
   std::filesystem::path pvd;
 };
 
 /// Writes these frames of a run as the series `volume` in `folder`, as the run itself does with
-/// output.volume. Of bonds that may break, those count as broken that the run has written so, or
-/// else the longest ones of particles that have lost some. Throws bad input for a run that has not
-/// written all particles, or whose mesh has changed, and not written.
+/// output.volume. Throws as RunVolume does, and not written.
 ExportedVolume export_volume(const RunFiles& run, const std::vector<std::size_t>& frames,
                              const std::filesystem::path& folder);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The objects in a picture as VTK actors: particles, skin, edges, bones, obstacles,
-// arrows, lines, traces and forces.
+// The objects in a picture as VTK actors: particles, skin, edges, the cut, bones, obstacles,
+// arrows, lines, curves, traces and forces.
 //
 //     add_particles(stage.renderer(), snapshot, scale);
 #pragma once
@@ -34,6 +34,10 @@ void add_creases(vtkRenderer& renderer, const Snapshot& snapshot, const Shading&
 void add_net(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
              const LineStyle& style);
 
+/// The cut face in the colors of its values, without light, and its outline on the skin.
+void add_cut(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
+             const LineStyle& outline);
+
 /// Tubes with joints, about `thickness` (m) thick.
 void add_bare_bones(vtkRenderer& renderer, const Snapshot& snapshot, double thickness,
                     const Color& color);
@@ -51,6 +55,10 @@ void add_obstacles(vtkRenderer& renderer, const Snapshot& snapshot, double line)
 /// The snapshot's lines in the colors of their values, `width` rendered pixels wide.
 void add_lines(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
                double width);
+
+/// The curves as tubes about `thickness` (m) thick, in the colors of their values.
+void add_curves(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
+                double thickness);
 
 /// The traces as tubes about `thickness` (m) thick, each with its particle at the end.
 void add_traces(vtkRenderer& renderer, const Snapshot& snapshot, double thickness);

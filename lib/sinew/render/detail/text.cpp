@@ -6,10 +6,7 @@
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
-#include <algorithm>
-#include <cmath>
-
-#include <sinew/core/text.h>
+#include <sstream>
 
 namespace sinew {
 namespace {
@@ -55,51 +52,10 @@ void write_line(Image& image, const std::string& line, int x, int baseline,
 
 }  // namespace
 
-int line_height(const TextStyle& style) { return static_cast<int>(std::lround(1.35 * style.size)); }
-
 void write_text(Image& image, const std::string& text, int x, int y, const TextStyle& style) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line); y += line_height(style))
     write_line(image, line, x, y + style.size, style);
-}
-
-int color_bar_height(const TextStyle& style) { return 3 * line_height(style); }
-
-namespace {
-
-void draw_names(Image& image, const ColorScale& scale, int x, int y, int width, TextStyle words) {
-  const int line = line_height(words), thick = 3 * line / 4;
-  const auto count = static_cast<int>(scale.names.size());
-  for (int k = 0; k < count; ++k) {
-    const int from = x + k * width / count, to = x + (k + 1) * width / count;
-    fill(image, from, y, to - from, thick, scale.color(k));
-    write_text(image, scale.names[static_cast<std::size_t>(k)], (from + to) / 2, y + thick + 2,
-               words);
-  }
-}
-
-void draw_values(Image& image, const ColorScale& scale, int x, int y, int width, TextStyle words) {
-  const int line = line_height(words), thick = 3 * line / 4;
-  for (int i = 0; i < width; ++i)
-    fill(image, x + i, y, 1, thick, mapped_color(i / (width - 1.0), scale.map));
-  for (const double part : {0.0, 0.5, 1.0}) {
-    const double value = scale.low + part * (scale.high - scale.low);
-    words.align = part == 0 ? Align::left : part == 1 ? Align::right : Align::center;
-    write_text(image, three_digits(value), x + static_cast<int>(part * width), y + thick + 2,
-               words);
-  }
-}
-
-}  // namespace
-
-void draw_color_bar(Image& image, const ColorScale& scale, int x, int y, int width,
-                    const TextStyle& style) {
-  TextStyle words = style;
-  words.align = Align::center;
-  const std::string unit = scale.unit.empty() ? "" : " (" + scale.unit + ")";
-  write_text(image, scale.name + unit, x + width / 2, y, words);
-  const auto draw = scale.names.empty() ? draw_values : draw_names;
-  draw(image, scale, x, y + line_height(style), width, words);
 }
 
 }  // namespace sinew
