@@ -25,7 +25,7 @@ ARROWS = {
               "stepping", "io"},
     "run": {"core", "settings", "mesh", "repair", "fill", "volume", "rig", "material", "body", "world", "stepping", "engine", "io", "scene",
             "metrics"},
-    "figures": {"core", "settings", "rig", "material", "body", "world", "io", "scene", "metrics", "render", "run"},
+    "figures": {"core", "settings", "volume", "rig", "material", "body", "world", "io", "scene", "metrics", "render", "run"},
     "study": {"core", "settings", "mesh", "repair", "io", "scene", "metrics", "run"},
 }
 # Rooms whose headers are not installed -> those that are.
@@ -34,7 +34,7 @@ INTERNAL = {"kernel": ("instruction_set.h",), "lists": ("list_counts.h",), "lamm
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
     r"(CGAL|boost)/": ("mesh", "repair", "fill", "volume"),
-    r"vtk\w*\.h": ("render", "vtk", "vtk/data_sets.h"),
+    r"vtk\w*\.h": ("render", "vtk", "render/detail/shapes.h", "vtk/data_sets.h"),
     r"yaml-cpp/": ("settings",),
     r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),
     r"nlohmann/json\.hpp": ("io", "metrics", "scene", "run", "study", "run/detail/run_log.h"),

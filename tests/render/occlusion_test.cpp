@@ -31,16 +31,6 @@ TEST(Occlusion, a_valley_is_darkest_at_its_bottom) {
   EXPECT_NEAR(result[20 * side + 32], 0, 1e-6);
 }
 
-TEST(Occlusion, of_every_second_pixel_is_the_same_on_average) {
-  DepthImage image{side, side, 1, {}};
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      image.depth.push_back(static_cast<float>(100 - std::abs(x - 20)));
-  const auto all = occlusion(image, 8), half = occlusion(image, 8, Sampled::every_second);
-  for (int x = 4; x < 36; ++x)
-    EXPECT_NEAR(half[20 * side + x], all[20 * side + x], 0.06 + 0.15 * all[20 * side + x]);
-}
-
 TEST(Occlusion, a_ridge_and_an_empty_sky_are_open) {
   constexpr double nothing = std::numeric_limits<double>::infinity();
   for (const float value : hidden([](int x, int) { return 100 + std::abs(x - 20); }))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -206,6 +207,33 @@ int FigureSet::pictures() {
   return static_cast<int>(chosen.size());
 }
 
+/// Whether the sheet shows a cloud of dots rather than spheres.
+bool FigureSet::particles_are_small(const SheetOptions& sheet) const {
+  constexpr double smallest = 7;  // pixels across
+  const Vec3 size = runs_.front()->overview().frame.sizes();
+  const double scale = std::min(sheet.row_height / size.y(),
+                                sheet.width / (size.x() * static_cast<double>(moments().size())));
+  return 2 * runs_.front()->files().body.particles.radius * scale < smallest;
+}
+
+/// The body at the same moments, cut open; none where its cells would take long or cannot be made.
+std::vector<Snapshot> FigureSet::cut_open() const {
+  constexpr std::size_t many = 200'000;  // particles, whose cells take 3 s
+  const DrawnRun& run = *runs_.front();
+  if (run.files().body.particles.size() > many) return {};
+  DrawnView cut = drawn(0);
+  cut.preset = view_preset_named("cut");
+  std::vector<Snapshot> snapshots;
+  try {
+    cut.skin.emplace(run.files(), cut.values);
+    cut.volume = std::make_shared<DrawnVolume>(run.files());
+  } catch (const Error&) {  // particles that are not written, or a mesh that is not there
+    return {};
+  }
+  for (const KeyMoment& moment : moments()) snapshots.push_back(run.snapshot(moment.frame, cut));
+  return snapshots;
+}
+
 void FigureSet::sheet() {
   std::vector<std::vector<Snapshot>> over_time(runs_.size());
   for (const auto& [frame, what] : moments()) {
@@ -229,8 +257,13 @@ void FigureSet::sheet() {
   // Several moments need more space.
   sheet.width = std::min(largest_picture, options_.width * 5 / 4);
   sheet.row_height = options_.height * 7 / 9;
-  if (of_body())
-    return write(surface_above_particles(painters_[0], over_time[0]), "contact_sheet.png");
+  if (of_body()) {
+    std::vector<SheetRow> rows = surface_above_particles(painters_[0], over_time[0]);
+    std::vector<Snapshot> cuts;
+    if (particles_are_small(sheet)) cuts = cut_open();
+    if (!cuts.empty()) rows[1] = {&painters_[0], &cuts, View::cut, ""};
+    return write(rows, "contact_sheet.png");
+  }
   std::vector<SheetRow> rows;
   for (std::size_t run = 0; run < runs_.size(); ++run)
     rows.push_back({&painters_[run], &over_time[run], drawn(run).preset.view, title(run)});

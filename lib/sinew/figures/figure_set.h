@@ -61,6 +61,8 @@ class FigureSet {
   ColorScale scale() const;
   std::vector<KeyMoment> moments() const;
   std::vector<Snapshot> snapshots(std::size_t frame) const;
+  bool particles_are_small(const SheetOptions& sheet) const;
+  std::vector<Snapshot> cut_open() const;
   Box frame_of(const std::vector<KeyMoment>& moments) const;
   Camera movie_camera(std::size_t frame) const;
   std::vector<Panel> panels(const std::vector<Snapshot>& snapshots);

@@ -101,9 +101,13 @@ void paste(Image& image, const Image& part, int x, int y) {
 }
 
 void fill(Image& image, int x, int y, int width, int height, const Color& color) {
-  for (int row = std::max(0, y); row < std::min(y + height, image.height); ++row)
-    for (int column = std::max(0, x); column < std::min(x + width, image.width); ++column)
-      std::copy(color.begin(), color.end(), image.at(column, row));
+  const int left = std::max(0, x), right = std::min(x + width, image.width);
+  const int top = std::max(0, y), bottom = std::min(y + height, image.height);
+  if (left >= right || top >= bottom) return;
+  for (int column = left; column < right; ++column)
+    std::copy(color.begin(), color.end(), image.at(column, top));
+  for (int row = top + 1; row < bottom; ++row)
+    std::copy_n(image.at(left, top), 3 * (right - left), image.at(left, row));
 }
 
 Image cut_out(const Image& on_white, const Image& on_black) {

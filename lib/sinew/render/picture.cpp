@@ -48,9 +48,9 @@ float shown_through(const Exposure& exposure, std::size_t part, float coverage) 
 }
 
 /// Darkens the hollows, but never to black.
-void add_shadows(Exposure& exposure, double radius, Sampled sampled) {
+void add_shadows(Exposure& exposure, double radius) {
   constexpr float strength = 1.1F, least = 0.3F;
-  const std::vector<float> hidden = occlusion(exposure.depth, radius, sampled);
+  const std::vector<float> hidden = occlusion(exposure.depth, radius);
   for (std::size_t i = 0; i < hidden.size(); ++i) {
     if (hidden[i] == 0) continue;
     const float light = std::max(least, 1 - strength * hidden[i]);
@@ -60,17 +60,6 @@ void add_shadows(Exposure& exposure, double radius, Sampled sampled) {
       part = byte_of(light * (static_cast<float>(part) - behind) + behind);
     }
   }
-}
-
-Exposure with_shadows(Exposure exposure, double radius, Sampled sampled) {
-  add_shadows(exposure, radius, sampled);
-  return exposure;
-}
-
-/// For pictures whose coverage is not used again: it is large in large ones.
-Exposure only_seen(Exposure exposure) {
-  exposure.coverage = {};
-  return exposure;
 }
 
 /// Blends `over` into the image where it covers anything.
@@ -144,20 +133,31 @@ struct Painter::Sizes {
   double pixel;  ///< m
   double grain;  ///< unit of shadows and bones: a particle's radius, m
   double line;   ///< width of the skin's edges, in rendered pixels
-  Sampled shadows;
+  bool shadows;
+  bool obstacles;  ///< stand before or behind the body
+
+  /// What is needed of the body's picture.
+  Measured body() const { return shadows || obstacles ? Measured::all : Measured::none; }
 };
 
 Painter::Painter(const Triangles& rest, ColorScale scale)
     : skin_(make_shading(rest)), scale_(std::move(scale)) {}
 
+/// What is on the stage, with shadows in hollows of about `radius` (m) where it has any.
+Exposure Painter::shaded(Measured measured, const Sizes& sizes, double radius) {
+  Exposure picture = stage_.render(measured);
+  if (sizes.shadows) add_shadows(picture, radius);
+  return picture;
+}
+
 Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones) {
-  add_particles(stage_.renderer(), snapshot, scale_);
+  add_particles(stage_.renderer(), snapshot, scale_, stage_.view());
   if (skin_and_bones) {
     add_creases(stage_.renderer(), snapshot, skin_,
                 {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
     add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   }
-  Exposure picture = only_seen(with_shadows(stage_.render(), 2 * sizes.grain, sizes.shadows));
+  Exposure picture = shaded(sizes.body(), sizes, 2 * sizes.grain);
   if (!skin_and_bones || snapshot.bones.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   shine_through(picture.image, stage_.render(), 0.6F);
@@ -166,17 +166,17 @@ Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool s
 
 Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes, bool beside_particles) {
   add_skin(stage_.renderer(), snapshot, skin_, scale_);
-  if (beside_particles) add_particles(stage_.renderer(), snapshot, scale_);
+  if (beside_particles) add_particles(stage_.renderer(), snapshot, scale_, stage_.view());
   add_cut(stage_.renderer(), snapshot, scale_, {1.4 * sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
   const double hollow = (beside_particles ? 2 : 5) * sizes.grain;
-  Exposure picture = only_seen(with_shadows(stage_.render(), hollow, sizes.shadows));
+  Exposure picture = shaded(sizes.body(), sizes, hollow);
   const Snapshot held = marked(snapshot, Mark::held);
   if (snapshot.bones.empty() && held.particles.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
-  add_particles(stage_.renderer(), held, scale_);
+  add_particles(stage_.renderer(), held, scale_, stage_.view());
   shine_through(picture.image, stage_.render(), 0.6F);
   return picture;
 }
@@ -184,16 +184,17 @@ Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes, bool bes
 Exposure Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
   add_skin(stage_.renderer(), snapshot, skin_, scale_);
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  Exposure picture = with_shadows(stage_.render(), 5 * sizes.grain, sizes.shadows);
+  Exposure picture = shaded(Measured::all, sizes, 5 * sizes.grain);
   pale(picture);
-  return only_seen(std::move(picture));
+  picture.coverage = {};
+  return picture;
 }
 
 void Painter::add_binding(const Snapshot& snapshot, const Sizes& sizes) {
   vtkRenderer& renderer = stage_.renderer();
   add_bare_bones(renderer, snapshot, 1.2 * sizes.grain, palette::bone);
   add_references(renderer, snapshot, 0.6 * sizes.grain);
-  add_particles(renderer, snapshot, scale_);
+  add_particles(renderer, snapshot, scale_, stage_.view());
   add_lines(renderer, snapshot, scale_, 1.5 * sizes.line);
   add_arrows(renderer, snapshot, scale_);
 }
@@ -201,7 +202,7 @@ void Painter::add_binding(const Snapshot& snapshot, const Sizes& sizes) {
 void Painter::tint_muscles(Exposure& picture, const Snapshot& snapshot) {
   const Snapshot muscles = marked(snapshot, Mark::muscle);
   if (muscles.particles.empty()) return;
-  add_particles(stage_.renderer(), muscles, scale_);
+  add_particles(stage_.renderer(), muscles, scale_, stage_.view());
   shine_through(picture.image, stage_.render(), 0.4F);
 }
 
@@ -252,10 +253,8 @@ Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) 
     add_curves(stage_.renderer(), snapshot, scale_, std::max(0.5 * sizes.grain, 3 * sizes.pixel));
   if (view == View::plan)
     for (const Mark mark : {Mark::held, Mark::loaded, Mark::sample})
-      add_particles(stage_.renderer(), marked(snapshot, mark), scale_);
-  Exposure over = stage_.render();
-  add_shadows(over, 2 * sizes.grain, sizes.shadows);
-  shine_through(picture.image, over, 1);
+      add_particles(stage_.renderer(), marked(snapshot, mark), scale_, stage_.view());
+  shine_through(picture.image, shaded(Measured::all, sizes, 2 * sizes.grain), 1);
   return picture;
 }
 
@@ -264,11 +263,11 @@ Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
       meters_per_pixel(options.camera.frame, std::max(1, options.width - 2 * options.margin),
                        std::max(1, options.height - 2 * options.margin));
   stage_.aim({options.camera, options.width, options.height, pixel, options.finish,
-              options.paper.background, options.tile});
+              options.paper.background, snapshot.radius, options.tile});
   constexpr double min_grain = 4;  // pixels: thinner bones would not be seen in a plan
   const bool fine = options.finish == Finish::fine;
-  Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel, fine ? 2.4 : 1.4,
-              fine ? Sampled::every_pixel : Sampled::every_second};
+  Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel, fine ? 2.4 : 1.4, fine,
+              !snapshot.obstacles.faces.empty()};
   if (options.view == View::plan) sizes.grain = std::max(sizes.grain, min_grain * pixel);
   Exposure picture = body(snapshot, sizes, options.view);
   put_obstacles(picture, snapshot, sizes);

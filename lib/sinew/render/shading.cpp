@@ -202,15 +202,14 @@ std::vector<float> blurred(const std::vector<float>& values, const DepthImage& i
 
 }  // namespace
 
-std::vector<float> occlusion(const DepthImage& image, double radius, Sampled sampled) {
+std::vector<float> occlusion(const DepthImage& image, double radius) {
   const Discs discs = make_discs(radius, image.pixel);
   std::vector<float> result(image.depth.size());
-  const int step = sampled == Sampled::every_second ? 2 : 1;
   parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-      for (int x = step == 2 ? y % 2 : 0; x < image.width; x += step)
+      for (int x = 0; x < image.width; ++x)
         result[static_cast<std::size_t>(y) * image.width + x] =
-            static_cast<float>(step) * hidden(image, discs, static_cast<float>(radius), x, y);
+            hidden(image, discs, static_cast<float>(radius), x, y);
   });
   return blurred(result, image);
 }

@@ -42,10 +42,7 @@ struct DepthImage {
   float at(int x, int y) const { return depth[static_cast<std::size_t>(y) * width + x]; }
 };
 
-enum class Sampled { every_pixel, every_second };  ///< like a chessboard, in half of the time
-
 /// 0 (open) .. 1 (hidden) for each pixel, from what lies within `radius` (m). Runs in parallel.
-std::vector<float> occlusion(const DepthImage& image, double radius,
-                             Sampled sampled = Sampled::every_pixel);
+std::vector<float> occlusion(const DepthImage& image, double radius);
 
 }  // namespace sinew

@@ -4,11 +4,14 @@
 #include <vtkCamera.h>
 #include <vtkFloatArray.h>
 #include <vtkLight.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include <sinew/core/error.h>
@@ -86,11 +89,19 @@ void aim_at(vtkCamera& out, const Mat3& view, const Box& box, double away) {
   out.SetClippingRange(away - size.z() / 2, away + size.z() / 2);
 }
 
-Exposure unexposed(int width, int height, double pixel) {
-  const auto size = static_cast<std::size_t>(width) * height;
+Tile common(const Tile& a, const Tile& b) {
+  const int left = std::max(a.x, b.x), top = std::max(a.y, b.y);
+  return {left, top, std::min(a.x + a.width, b.x + b.width) - left,
+          std::min(a.y + a.height, b.y + b.height) - top};
+}
+
+Exposure unexposed(const Shot& shot, Measured measured) {
   Exposure exposure;
-  exposure.image = Image(width, height);
-  exposure.depth = {width, height, pixel, {}};
+  exposure.image = Image(shot.width, shot.height, shot.background);
+  exposure.background = shot.background;
+  if (measured == Measured::none) return exposure;
+  const auto size = static_cast<std::size_t>(shot.width) * shot.height;
+  exposure.depth = {shot.width, shot.height, shot.pixel, {}};
   exposure.depth.depth.assign(size, std::numeric_limits<float>::infinity());
   exposure.coverage.assign(size, 0);
   return exposure;
@@ -105,49 +116,74 @@ struct Stage::Impl {
   Box box;        // in the picture
   int times = 1;  // rendered this many times larger than the picture
 
-  void expose(const Tile& tile, Exposure& exposure);
-  Image pixels(const Tile& drawn) const;
-  void measure(const Tile& drawn, const Tile& tile, Exposure& exposure) const;
+  Tile covered() const;
+  void expose(const Tile& tile, const Tile& used, Measured measured, Exposure& exposure);
+  Image pixels(const Tile& drawn, const Tile& used) const;
+  void measure(const Tile& drawn, const Tile& used, Exposure& exposure) const;
 };
 
-/// Renders a tile into its part of the exposure.
-void Stage::Impl::expose(const Tile& tile, Exposure& exposure) {
+/// What the actors may cover of the picture.
+Tile Stage::Impl::covered() const {
+  constexpr int line = 6;  // pixels: half of the widest one, and of what is smoothed
+  std::array<double, 6> sides;
+  renderer->ComputeVisiblePropBounds(sides.data());
+  if (!vtkMath::AreBoundsInitialized(sides.data())) return {0, 0, 0, 0};
+  const Box bounds(Vec3(sides[0], sides[2], sides[4]), Vec3(sides[1], sides[3], sides[5]));
+  Box in_view;
+  for (int corner = 0; corner < 8; ++corner)
+    in_view.extend(shot.camera.view * bounds.corner(static_cast<Box::CornerType>(corner)));
+  const double around = shot.reach + line * shot.pixel;
+  const auto place = [&](double meters, int most) {
+    return static_cast<int>(std::clamp(std::floor(meters / shot.pixel), 0.0, double(most)));
+  };
+  const int left = place(in_view.min().x() - around - box.min().x(), shot.width),
+            right = place(in_view.max().x() + around - box.min().x(), shot.width),
+            top = place(box.max().y() - in_view.max().y() - around, shot.height),
+            bottom = place(box.max().y() - in_view.min().y() + around, shot.height);
+  return {left, top, right - left, bottom - top};
+}
+
+/// Renders a tile into its part of the exposure, of which `used` is covered.
+void Stage::Impl::expose(const Tile& tile, const Tile& used, Measured measured,
+                         Exposure& exposure) {
   const Tile drawn = with_border(tile, shot.width, shot.height);
   window->SetSize(times * drawn.width, times * drawn.height);
   aim_at(*renderer->GetActiveCamera(), shot.camera.view, part_of(box, drawn, shot.pixel),
          box.sizes().norm());
   window->Render();
-  const Image image = pixels(drawn);
-  for (int y = 0; y < tile.height; ++y)
-    std::copy_n(image.at(tile.x - drawn.x, tile.y - drawn.y + y), 3 * tile.width,
-                exposure.image.at(tile.x, tile.y + y));
-  measure(drawn, tile, exposure);
+  const Image image = pixels(drawn, used);
+  for (int y = 0; y < used.height; ++y)
+    std::copy_n(image.at(0, y), 3 * used.width, exposure.image.at(used.x, used.y + y));
+  if (measured == Measured::all) measure(drawn, used, exposure);
 }
 
-Image Stage::Impl::pixels(const Tile& drawn) const {
-  Image image(times * drawn.width, times * drawn.height);
+Image Stage::Impl::pixels(const Tile& drawn, const Tile& used) const {
+  Image image(times * used.width, times * used.height);
+  const int left = times * (used.x - drawn.x),
+            low = times * (drawn.y + drawn.height - used.y - used.height);
   vtkNew<vtkUnsignedCharArray> rgb;
-  window->GetPixelData(0, 0, image.width - 1, image.height - 1, 0, rgb);
+  window->GetPixelData(left, low, left + image.width - 1, low + image.height - 1, 0, rgb);
   for (int y = 0; y < image.height; ++y)  // VTK counts rows from below
     std::copy_n(rgb->GetPointer(3 * static_cast<vtkIdType>(image.height - 1 - y) * image.width),
                 3 * image.width, image.at(0, y));
   return times == 2 ? halved(image) : image;
 }
 
-/// Depth at every pixel of the tile, coverage averaged over the rendered pixels.
-void Stage::Impl::measure(const Tile& drawn, const Tile& tile, Exposure& exposure) const {
-  const int wide = times * drawn.width, high = times * drawn.height;
-  const int left = times * (tile.x - drawn.x), top = times * (tile.y - drawn.y);
+/// Depth at every pixel, coverage averaged over the rendered pixels.
+void Stage::Impl::measure(const Tile& drawn, const Tile& used, Exposure& exposure) const {
+  const int wide = times * used.width, high = times * used.height;
+  const int left = times * (used.x - drawn.x),
+            low = times * (drawn.y + drawn.height - used.y - used.height);
   vtkNew<vtkFloatArray> buffer;  // 0 (near) .. 1 (background)
-  window->GetZbufferData(0, 0, wide - 1, high - 1, buffer);
+  window->GetZbufferData(left, low, left + wide - 1, low + high - 1, buffer);
   const float* z = buffer->GetPointer(0);
   const auto deep = static_cast<float>(box.sizes().z());
   const float weight = 1.0F / static_cast<float>(times * times);
-  for (int y = 0; y < times * tile.height; ++y)
-    for (int x = 0; x < times * tile.width; ++x) {
-      const float part = z[static_cast<std::size_t>(high - 1 - top - y) * wide + left + x];
+  for (int y = 0; y < high; ++y)
+    for (int x = 0; x < wide; ++x) {
+      const float part = z[static_cast<std::size_t>(high - 1 - y) * wide + x];
       if (part >= 1) continue;
-      const auto pixel = static_cast<std::size_t>(tile.y + y / times) * shot.width + tile.x +
+      const auto pixel = static_cast<std::size_t>(used.y + y / times) * shot.width + used.x +
                          static_cast<std::size_t>(x / times);
       exposure.coverage[pixel] += weight;
       if (y % times == 0 && x % times == 0) exposure.depth.depth[pixel] = part * deep;
@@ -174,14 +210,18 @@ void Stage::aim(const Shot& shot) {
   impl_->box = filled(shot.camera.frame, shot.width, shot.height, shot.pixel);
 }
 
+const Mat3& Stage::view() const { return impl_->shot.camera.view; }
+
 vtkRenderer& Stage::renderer() { return *impl_->renderer; }
 
-Exposure Stage::render() {
+Exposure Stage::render(Measured measured) {
   const Shot& shot = impl_->shot;
-  Exposure exposure = unexposed(shot.width, shot.height, shot.pixel);
-  exposure.background = shot.background;
-  for (const Tile& tile : tiles_of(shot.width, shot.height, shot.tile / impl_->times))
-    impl_->expose(tile, exposure);
+  Exposure exposure = unexposed(shot, measured);
+  const Tile covered = impl_->covered();
+  for (const Tile& tile : tiles_of(shot.width, shot.height, shot.tile / impl_->times)) {
+    const Tile used = common(tile, covered);
+    if (used.width > 0 && used.height > 0) impl_->expose(tile, used, measured, exposure);
+  }
   impl_->renderer->RemoveAllViewProps();
   return exposure;
 }

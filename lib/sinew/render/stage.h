@@ -17,8 +17,8 @@ class vtkRenderer;
 namespace sinew {
 
 enum class Finish {
-  quick,  ///< rendered once, its edges smoothed afterwards: for movies
-  fine,   ///< rendered at twice the size: for pictures
+  quick,  ///< rendered once, its edges smoothed afterwards, without soft shadows: for movies
+  fine,   ///< rendered at twice the size, with soft shadows: for pictures
 };
 
 /// What the camera sees: a picture of width x height pixels, each `pixel` (m) in size, about the
@@ -29,15 +29,19 @@ struct Shot {
   double pixel = 1;
   Finish finish = Finish::fine;
   Color background = palette::paper;
+  double reach = 0;  ///< of what is drawn beyond its points, such as the radius of spheres, m
   int tile = 2560;  ///< rendered pixels: larger pictures are drawn in tiles, which take less memory
 };
 
 struct Exposure {
   Image image;
-  DepthImage depth;
-  std::vector<float> coverage;        ///< covered part of each pixel, 0 .. 1
+  DepthImage depth;                   ///< empty where not measured
+  std::vector<float> coverage;        ///< covered part of each pixel, 0 .. 1; likewise
   Color background = palette::paper;  ///< which is the rest of it
 };
+
+/// Depth and coverage take a third of the time where graphics are computed.
+enum class Measured { all, none };
 
 class Stage {
  public:
@@ -47,10 +51,11 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
 
   void aim(const Shot& shot);
+  const Mat3& view() const;  ///< of the camera
   /// To which actors are added.
   vtkRenderer& renderer();
   /// Renders the actors and clears the stage.
-  Exposure render();
+  Exposure render(Measured measured = Measured::all);
 
  private:
   struct Impl;

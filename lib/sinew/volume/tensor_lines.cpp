@@ -172,7 +172,7 @@ class Tracer {
   }
 
  private:
-  /// By the midpoint rule, without the first point; once around where the line is closed.
+  /// Steps by the midpoint rule, without the first point; once around where the line is closed.
   TensorLine along(const Vec3& begin, Vec3 direction, std::uint32_t cell) const {
     const double step = options_.spacing / steps_per_spacing;
     TensorLine line;

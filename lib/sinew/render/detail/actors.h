@@ -13,8 +13,10 @@ class vtkRenderer;
 
 namespace sinew {
 
-/// Spheres of the snapshot's radius in the colors of their values.
-void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);
+/// Spheres of the snapshot's radius in the colors of their values, as far as they may be seen by
+/// the camera of `view`.
+void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
+                   const Mat3& view);
 
 /// The part that its sides let be drawn, in the colors of its values; its edges likewise.
 void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,

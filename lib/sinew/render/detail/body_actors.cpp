@@ -17,6 +17,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <sinew/render/detail/shapes.h>
+#include <sinew/render/detail/visible_spheres.h>
 
 namespace sinew {
 
@@ -68,30 +69,24 @@ Color color_of(const Snapshot& snapshot, std::size_t particle, const ColorScale&
   return snapshot.values.empty() ? palette::particle : scale.color(snapshot.values[particle]);
 }
 
-vtkNew<vtkUnsignedCharArray> colors_of(const Snapshot& snapshot, const ColorScale& scale) {
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(static_cast<vtkIdType>(snapshot.particles.size()));
-  for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
-    const Color color = color_of(snapshot, i, scale);
-    colors->SetTypedTuple(static_cast<vtkIdType>(i), color.data());
-  }
-  return colors;
-}
-
 }  // namespace
 
-void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale) {
+void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
+                   const Mat3& view) {
   if (snapshot.particles.empty()) return;
+  vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> vertices;
-  for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
-    const auto point = static_cast<vtkIdType>(i);
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  for (const std::size_t i : visible_spheres(snapshot.particles, snapshot.radius, view)) {
+    const vtkIdType point = points->InsertNextPoint(snapshot.particles[i].data());
     vertices->InsertNextCell(1, &point);
+    colors->InsertNextTypedTuple(color_of(snapshot, i, scale).data());
   }
   vtkNew<vtkPolyData> data;
-  data->SetPoints(vtk_points(snapshot.particles));
+  data->SetPoints(points);
   data->SetVerts(vertices);
-  data->GetPointData()->SetScalars(colors_of(snapshot, scale));
+  data->GetPointData()->SetScalars(colors);
   vtkNew<vtkOpenGLSphereMapper> mapper;  // one quadrangle each, round by its shader
   mapper->SetInputData(data);
   mapper->SetRadius(static_cast<float>(snapshot.radius));
