@@ -17,6 +17,15 @@ Vec3 across(const Vec3& vector, const Vec3& along) {
   return part.norm() > 0.1 ? Vec3(part.normalized()) : Vec3(Vec3::Zero());
 }
 
+/// The size of what each bone holds, in any unit.
+std::vector<double> sizes_of_bones(const RunFiles& run) {
+  std::vector<double> sizes(run.skeleton.size());
+  for (const std::int32_t bone : *run.body.bone)
+    if (bone >= 0) ++sizes[static_cast<std::size_t>(bone)];
+  for (double& size : sizes) size = std::cbrt(size);
+  return sizes;
+}
+
 /// The scene's axis that points most to the viewer.
 Vec3 axis_toward(const Vec3& viewer) {
   int axis = 0;
@@ -41,9 +50,15 @@ void JointTurns::add(const RunFrame& frame) {
 
 DrawnPlane::DrawnPlane(const RunFiles& run, const JointTurns& turns, const Mat3& view) {
   const Vec3 viewer = view.row(2);
+  const std::vector<double> sizes = sizes_of_bones(run);
   const auto joint = std::max_element(
       turns.of_bones().begin(), turns.of_bones().end(),
-      [](const JointTurns::Turn& a, const JointTurns::Turn& b) { return a.angle < b.angle; });
+      [&](const JointTurns::Turn& a, const JointTurns::Turn& b) {
+        const auto weight = [&](const JointTurns::Turn& turn) {
+          return turn.angle * sizes[static_cast<std::size_t>(&turn - turns.of_bones().data())];
+        };
+        return weight(a) < weight(b);
+      });
   if (joint == turns.of_bones().end() || joint->angle < min_joint_turn) {
     rest_ = {bounds(positions_of(run.body.particles)).center(), axis_toward(viewer)};
     if (run.skeleton.size() == 1) bone_ = 0;

@@ -43,9 +43,9 @@ class DrawnPlane {
  public:
   /// Stays where it is in space.
   explicit DrawnPlane(const CutPlane& plane) : rest_(plane) {}
-  /// Goes through the joint that turns most, along its bone, and rides on the parent. It is the
-  /// plane of the bend where the viewer of `view` sees that, else it faces the viewer. Without such
-  /// a joint it goes through the body's middle.
+  /// Goes through the joint that turns most, the larger its bone's part of the body, along the
+  /// bone, and rides on the parent. It is the plane of the bend where the viewer of `view` sees
+  /// that, else it faces the viewer. Without such a joint it goes through the body's middle.
   DrawnPlane(const RunFiles& run, const JointTurns& turns, const Mat3& view);
 
   CutPlane at(const RunFrame& frame) const;

@@ -246,6 +246,7 @@ void FigureSet::sheet() {
   sheet.view = options_.view;
   sheet.axes = options_.axes;
   sheet.rulers = true;
+  sheet.strongest_force = runs_.front()->strongest_force();
   if (runs_.size() == 1) sheet.title = subject_of(*runs_.front());
   const auto write = [&](const std::vector<SheetRow>& rows, const std::string& file) {
     const auto on = [&](const Paper& paper) {

@@ -81,6 +81,8 @@ class DrawnRun {
 
   /// The frame nearest in time.
   std::size_t frame_at(double time) const;
+  /// The force of a support or a load that the longest arrow at any time stands for, N; 0: none.
+  double strongest_force() const { return forces_->strongest(); }
   std::vector<KeyMoment> key_moments() const;
 
   Snapshot snapshot(std::size_t index, const DrawnView& drawn) const;

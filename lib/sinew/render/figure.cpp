@@ -97,6 +97,7 @@ struct SheetLayout {
   int width = 0, height = 0, margin = 0, row_height = 0, captions = 0, bar = 0;
   double scale = 0;  ///< pixels per meter
   TextStyle text;
+  Color paper = palette::paper;
 
   /// A smaller one for the foot.
   TextStyle small() const {
@@ -164,6 +165,7 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   layout.margin = std::max(12, options.width / 32);
   layout.text.size = std::max(11, options.width / 64);
   layout.text.color = options.paper.ink;
+  layout.paper = options.paper.background;
   lay_columns(layout, options);
   int y = options.title.empty() ? 0 : layout.margin / 2 + line_height(layout.text);
   for (const SheetRow& row : rows) {
@@ -232,24 +234,51 @@ void draw_scale_bar(Page& sheet, const SheetLayout& layout, int x, const Color& 
   sheet.write(length_text(length), x + pixels / 2, y + 4 * thick, words);
 }
 
-/// Says at the foot's right what the colors of the bones' axes stand for.
-void draw_axes_key(Page& sheet, const SheetLayout& layout) {
-  static constexpr std::array<const char*, 3> meanings = {"along the bone", "its side y",
-                                                          "its side z"};
-  const TextStyle words = layout.small();
-  const int line = line_height(words), side = std::max(4, words.size / 2);
-  const int x = layout.width - layout.margin / 2 - 9 * words.size;
-  int y = layout.bar;
-  for (std::size_t axis = 0; axis < meanings.size(); ++axis, y += line) {
-    sheet.fill(x, y + line / 2 - side / 2, side, side, palette::axes[axis]);
-    sheet.write(meanings[axis], x + 2 * side, y, words);
-  }
-}
-
 bool has_bones(const std::vector<SheetRow>& rows) {
   return std::any_of(rows.begin(), rows.end(), [](const SheetRow& row) {
     return !row.snapshots->front().bones.empty() && shows_axes(row.view);
   });
+}
+
+/// What a color stands for.
+struct KeyEntry {
+  Color color;
+  std::string words;
+};
+
+/// The entries below each other, from the foot's right end; returns the left end.
+int draw_key(Page& sheet, const SheetLayout& layout, int right, int columns,
+             const std::vector<KeyEntry>& entries) {
+  const TextStyle words = layout.small();
+  const int line = line_height(words), side = std::max(4, words.size / 2);
+  const int x = right - columns * words.size;
+  int y = layout.bar;
+  for (const KeyEntry& entry : entries) {
+    sheet.fill(x, y + line / 2 - side / 2, side, side, entry.color);
+    sheet.write(entry.words, x + 2 * side, y, words);
+    y += line;
+  }
+  return x;
+}
+
+/// The bones' axes, and forces of supports and loads, as far as the rows show them.
+void draw_keys(Page& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
+               double strongest_force) {
+  int right = layout.width - layout.margin / 2;
+  if (has_bones(rows))
+    right = draw_key(sheet, layout, right, 9,
+                     {{palette::axes[0], "along the bone"},
+                      {palette::axes[1], "its side y"},
+                      {palette::axes[2], "its side z"}});
+  std::vector<KeyEntry> forces;
+  bool loads = false, supports = false;
+  for (const Snapshot& snapshot : *rows.front().snapshots)
+    for (const SnapshotForce& force : snapshot.forces) (force.is_load ? loads : supports) = true;
+  if (supports) forces.push_back({palette::held, "force of a support"});
+  if (loads) forces.push_back({palette::loaded, "load"});
+  if (forces.empty()) return;
+  forces.push_back({layout.paper, "longest: " + three_digits(strongest_force) + " N"});
+  draw_key(sheet, layout, right, 12, forces);
 }
 
 void draw_foot(Page& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
@@ -258,7 +287,7 @@ void draw_foot(Page& sheet, const std::vector<SheetRow>& rows, const SheetLayout
   if (options.axes)
     draw_tripod(sheet, options.view, layout.margin / 2, layout.height, corner * 10 / 28);
   if (options.rulers) draw_scale_bar(sheet, layout, layout.margin / 2 + corner, options.paper.ink);
-  if (options.rulers && has_bones(rows)) draw_axes_key(sheet, layout);
+  if (options.rulers) draw_keys(sheet, rows, layout, options.strongest_force);
   if (!show_values(rows)) return;
   const int bar = layout.width / 3;
   draw_color_bar(sheet, rows.front().painter->scale(), (layout.width - bar) / 2, layout.bar, bar,

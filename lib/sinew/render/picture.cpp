@@ -6,7 +6,9 @@
 #include <utility>
 
 #include <sinew/core/error.h>
+#include <sinew/core/parallel.h>
 #include <sinew/render/detail/actors.h>
+#include <sinew/render/detail/ground_shadow.h>
 #include <sinew/render/detail/text.h>
 
 namespace sinew {
@@ -211,8 +213,28 @@ void Painter::put_obstacles(Exposure& picture, const Snapshot& snapshot, const S
   if (snapshot.obstacles.faces.empty()) return;
   add_obstacles(stage_.renderer(), snapshot, sizes.line);
   Exposure over = stage_.render();
+  throw_shadow(over, snapshot);
   hide_behind(picture.depth, over);
   shine_through(picture.image, over, 0.38F);
+}
+
+/// Darkens what lies below the body.
+void Painter::throw_shadow(Exposure& ground, const Snapshot& snapshot) const {
+  constexpr double strength = 0.85;
+  const GroundShadow shadow(snapshot.particles, snapshot.radius);
+  parallel_for(static_cast<std::size_t>(ground.image.height), 16,
+               [&](std::size_t begin, std::size_t end) {
+                 for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+                   for (int x = 0; x < ground.image.width; ++x) {
+                     const float depth = ground.depth.at(x, y);
+                     if (!std::isfinite(depth)) continue;
+                     const double light = 1 - strength * shadow.at(stage_.place_at(x, y, depth));
+                     for (int c = 0; c < 3; ++c) {
+                       std::uint8_t& part = ground.image.at(x, y)[c];
+                       part = static_cast<std::uint8_t>(light * part);
+                     }
+                   }
+               });
 }
 
 /// Nothing hides them: they often lie within the body.

@@ -78,6 +78,7 @@ class Painter {
   void tint_muscles(Exposure& picture, const Snapshot& snapshot);
   void put_traces(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
   void put_forces(Exposure& picture, const Snapshot& snapshot);
+  void throw_shadow(Exposure& ground, const Snapshot& snapshot) const;
   void put_obstacles(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
 
   Shading skin_;

@@ -212,6 +212,13 @@ void Stage::aim(const Shot& shot) {
 
 const Mat3& Stage::view() const { return impl_->shot.camera.view; }
 
+Vec3 Stage::place_at(int x, int y, double depth) const {
+  const Box& box = impl_->box;
+  const double pixel = impl_->shot.pixel;
+  return view().transpose() * Vec3(box.min().x() + (x + 0.5) * pixel,
+                                   box.max().y() - (y + 0.5) * pixel, box.max().z() - depth);
+}
+
 vtkRenderer& Stage::renderer() { return *impl_->renderer; }
 
 Exposure Stage::render(Measured measured) {

@@ -52,6 +52,8 @@ class Stage {
 
   void aim(const Shot& shot);
   const Mat3& view() const;  ///< of the camera
+  /// Where something `depth` (m) deep in a pixel is, m.
+  Vec3 place_at(int x, int y, double depth) const;
   /// To which actors are added.
   vtkRenderer& renderer();
   /// Renders the actors and clears the stage.

@@ -61,6 +61,7 @@ ShownForces::ShownForces(const RunFiles& run) : run_(&run) {
          vectors(read_vtu(run.folder.path / row.file, {"force"}).point_columns, "force"))
       hardest = std::max(hardest, force.norm());
   const double size = bounds(positions_of(run.body.particles)).diagonal().norm();
+  strongest_ = hardest;
   if (hardest > 0) scale_ = longest * size / hardest;
 }
 

@@ -39,9 +39,12 @@ class ShownForces {
 
   /// At a frame of the run; none where it has neither.
   std::vector<ShownForce> at(std::size_t frame) const;
+  /// The force that the longest arrow at any time stands for, N.
+  double strongest() const { return strongest_; }
 
  private:
   const RunFiles* run_;
+  double strongest_ = 0;
   double scale_ = 0;  ///< m/N
 };
 
