@@ -4,7 +4,7 @@
 
 usage: make_gallery.py SINEW RUNS [NAME ...]     SINEW: the program build/bin/sinew; RUNS: a folder that keeps
                                                  the runs, so that a second call only draws; NAME: only these
-                                                 pictures. Needs Debian's python3-pil, python3-matplotlib,
+                                                 pictures. Needs Debian's ffmpeg, python3-pil, python3-matplotlib,
                                                  paraview, libqt5svg5 and chromium
 """
 import os
@@ -46,6 +46,8 @@ PICTURES = {
     "forces": ("box_bend", ["--view", "forces", "--times", "0.5,1,1.4"], "forces_sheet"),
     "skin": ("elastic_arm", ["--view", "surface", "--array", "von_mises", "--times", "0.7,1.5"], "surface_sheet"),
     "halves": ("elastic_arm", ["--view", "halves", "--array", "von_mises", "--times", "0.7,1.5"], "halves_sheet"),
+    "cut": ("elastic_arm", ["--view", "cut", "--array", "von_mises", "--times", "0.7,1.5"], "cut_sheet"),
+    "lines": ("bonded", ["--view", "lines", "--times", "0.5,1.4"], "lines_sheet"),
     "compare": ("paper", ["--compare", "bonded", "--view", "strain", "--times", "0,1.4,3"],
                 "compare_strain_sheet"),
     "paper_figure_3": ("bend_and_twist", ["--view", "binding", "--times", "0.2,0.4"], "binding_sheet"),
@@ -70,7 +72,7 @@ def draw(sinew, runs, name):
         subprocess.run([sinew, "render", "--no-movie", "--width", "960", "--height", "540", "-o", folder,
                         *options, simulated(sinew, runs, run)],
                        check=True, stdout=subprocess.DEVNULL)
-        (keep_small if name == "paper_figure_4" else keep)(Path(folder) / f"{taken}.png", name)
+        keep(Path(folder) / f"{taken}.png", name)
 
 
 def keep(picture, name):
@@ -79,12 +81,14 @@ def keep(picture, name):
     image.crop(image.getbbox()).save(DATA / f"pictures/{name}.png", optimize=True)
 
 
-def keep_small(picture, name):
-    """As wide as a page shows it, in a palette."""
-    image = Image.open(picture).convert("RGB")
-    image = image.crop(image.getbbox())
-    image.thumbnail((800, 800), Image.LANCZOS)
-    image.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=8, dither=Image.Dither.NONE).save(DATA / f"pictures/{name}.png", optimize=True)
+def draw_movie(sinew, runs):
+    """A moving picture for the front page, in all colors."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([sinew, "render", "--no-pictures", "--view", "halves", "--array", "von_mises", "--width", "720",
+                        "--height", "480", "-o", folder, simulated(sinew, runs, "elastic_arm")], check=True,
+                       stdout=subprocess.DEVNULL)
+        subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-i", Path(folder) / "halves.mp4", "-vf", "fps=15",
+                        "-c:v", "libwebp_anim", "-loop", "0", "-quality", "70", DATA / "pictures/arm.webp"], check=True)
 
 
 def draw_window(sinew, runs):
@@ -123,7 +127,7 @@ def draw_force(sinew, _):
 
 def main():
     sinew, runs = (Path(place).resolve() for place in sys.argv[1:3])
-    others = {"paraview": draw_window, "report": draw_report, "paper_figure_1": draw_range,
+    others = {"arm_moving": draw_movie, "paraview": draw_window, "report": draw_report, "paper_figure_1": draw_range,
               "paper_figure_2": draw_force}
     for name in sys.argv[3:] or [*PICTURES, *others]:
         if name in others:
