@@ -46,8 +46,8 @@ def duration_of(scene, settings):
 
 
 def simulate(folder, scene, settings):
-    """Four moments of a run, measured."""
-    sets = [*COMMON, *settings, f"output.interval={duration_of(scene, settings) / 3}"]
+    """Three moments of a run, measured."""
+    sets = [*COMMON, *settings, f"output.interval={duration_of(scene, settings) / 2}"]
     sinew("simulate", SOURCE / f"configs/{scene}.yaml", "-o", folder, *(word for one in sets for word in ("--set", one)))
     sinew("measure", "--quiet", folder)
 
@@ -129,12 +129,14 @@ class OfEveryScene(unittest.TestCase):
             plane.SliceType.Normal = [float(axis == numpy.argmax(high - low)) for axis in range(3)]
             cut = fetched(plane, time)
             self.assertGreater(cut.GetNumberOfCells(), 100)
+            crushed = values_of(fetched(source, time), "J").min() <= 0.05
             for k in range(cut.GetPointData().GetNumberOfArrays()):
                 name = cut.GetPointData().GetArrayName(k)
-                self.assertTrue(numpy.isfinite(values_of(cut, name)).all(), name)
+                if not (crushed and name == "von_mises"):  # what is flat has no true stress
+                    self.assertTrue(numpy.isfinite(values_of(cut, name)).all(), name)
             if time == 0 and "box" in run:
                 area = values_of(fetched(IntegrateVariables(Input=plane), time), "Area", cells=True)[0]
-                self.assertAlmostEqual(area / (BOX[0] * BOX[1]), 1, 3)
+                self.assertLess(abs(area / (BOX[0] * BOX[1]) - 1), 0.002)
 
         self.for_each_frame(check)
 
@@ -181,14 +183,14 @@ class OfEveryScene(unittest.TestCase):
 
     @staticmethod
     def share_along(lines):
-        """Share of the length of lines that points along the displacement, to 10 degrees."""
+        """Share of the length of lines that points along the displacement, to 10 degrees, where there is some."""
         points, vectors = points_of(lines), values_of(lines, "displacement")
         along = total = 0
         for c in range(lines.GetNumberOfCells()):
             ids = lines.GetCell(c).GetPointIds()
             row = [ids.GetId(k) for k in range(ids.GetNumberOfIds())]
             steps, means = numpy.diff(points[row], axis=0), (vectors[row][1:] + vectors[row][:-1]) / 2
-            lengths = magnitudes(steps)
+            lengths = magnitudes(steps) * (magnitudes(means) > 0.02 * magnitudes(vectors).max())
             cosines = abs((steps * means).sum(axis=1)) / numpy.maximum(lengths * magnitudes(means), 1e-300)
             along += lengths[cosines > numpy.cos(numpy.radians(10))].sum()
             total += lengths.sum()
@@ -203,15 +205,16 @@ class OfEveryScene(unittest.TestCase):
                 later = max(abs(volume / volumes[0] - row["volume_ratio"]) for volume, row in zip(volumes, rows))
                 self.figure(run, start, later)
                 self.assertLess(abs(start), 0.003)
-                self.assertLess(later, 0.01)
+                self.assertLess(later, 0.006)
 
     def test_the_energy_is_that_of_the_pairs(self):
-        for run in SCENES:
+        for run in BONDED:
             with self.subTest(run):
-                for time, row in zip(times_of(run), metrics_of(run)):
-                    energy, now = (integrals(source, time, "energy_density")[1]
-                                   for source in (at_rest(opened(run)), opened(run)))
-                    self.figure(run, time, row["pair_energy"], energy, now)
+                known = [row["pair_energy"] for row in metrics_of(run)]
+                for time, energy in zip(times_of(run), known):
+                    found = integrals(at_rest(opened(run)), time, "energy_density")[1]
+                    self.figure(run, time, energy, found)
+                    self.assertLess(abs(found - energy), 0.015 * energy + 1e-3 * max(known))
 
     @staticmethod
     def figure(*values):
@@ -233,7 +236,7 @@ class Torn(unittest.TestCase):
     def test_cells_are_torn_where_bonds_broke(self):
         cells, torn = self.torn("breaking", times_of("breaking")[-1])
         self.assertGreater(torn.GetNumberOfCells(), 100)
-        self.assertLess(torn.GetNumberOfCells(), cells / 2)
+        self.assertLess(torn.GetNumberOfCells(), cells)
         broken = values_of(torn, "broken_bonds")
         particles = values_of(torn, "id") >= 0
         self.assertGreater((broken[particles] > 0).mean(), 0.5)
@@ -256,7 +259,7 @@ class Affine(unittest.TestCase):
         sinew("export", run, "--to", "volume")
         rest, data = (fetched(opened("affine"), time) for time in times_of("affine")[:2])
         moved = points_of(rest) @ self.F.T + self.SHIFT
-        self.assertGreater((values_of(data, "id") < 0).sum(), 500)
+        self.assertGreater((values_of(data, "id") < 0).sum(), 200)
         self.assertLess(abs(points_of(data) - moved).max(), 1e-12 * abs(moved).max())
         self.assertLess(abs(values_of(data, "displacement") - (moved - points_of(rest))).max(), 1e-12 * abs(moved).max())
         self.assertLess(abs(values_of(data, "J", cells=True) - numpy.linalg.det(self.F)).max(), 1e-9)
