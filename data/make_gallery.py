@@ -27,8 +27,8 @@ RUNS = {
     "arm": ("arm_bend", []),
     "fox": ("creature_walk", []),
     "elastic_arm": ("arm_bend", ["--set", "material.model=bonded"]),
-    "cells": ("arm_bend", ["--set", "material.model=bonded", "--set", "output.volume=true", "--set",
-                           "solver.duration=2", "--set", "output.interval=0.1"]),
+    "cells": ("box_bend", ["--set", "material.model=bonded", "--set", "output.volume=true", "--set",
+                           "solver.duration=1.2", "--set", "output.interval=0.1"]),
     "paper": ("box_bend", []),
     "literal": ("paper_literal", []),
     "bend_and_twist": ("box_bend", ["--set", "motion.tracks=[{bone: upper, keys: [{time: 0}, {time: 0.4, euler: "

@@ -3,8 +3,8 @@
 """Volume cells of every mesh in data and of every one that data/make_broken.py breaks: the tables of
 lib/sinew/volume/README.md.
 
-usage: cells.py BIN SOURCE [--update]      folder of the programs, folder of the project; --update writes the tables
-                                           into the page
+usage: cells.py BIN SOURCE [--update] [TABLE ...]      folder of the programs, folder of the project; --update writes
+                                                       the tables into the page; TABLE: only whole, broken or odd
 """
 import json
 import subprocess
@@ -38,9 +38,9 @@ def fill(mesh, *words):
     return json.loads(done.stdout)
 
 
-def volume_by_particles(mesh, count=1000000):
+def volume_by_particles(mesh, *size):
     """Of what is inside, by the particles of a turned lattice."""
-    filled = fill(mesh, "--count", count, *PACKINGS["fcc, turned"])
+    filled = fill(mesh, *size, *PACKINGS["fcc, turned"])
     return filled if isinstance(filled, str) else filled["particles"] * 32 ** 0.5 * filled["radius"] ** 3
 
 
@@ -49,7 +49,7 @@ def volume_of_broken(path, whole, way):
     volume = volume_of(whole)
     known = {"nested_in": volume - volume_of(shrunk(whole)), "two_bodies": 2 * volume, "touching": 2 * volume,
              "tiny": volume * 1e-18, "huge": volume * 1e18}
-    return volume_by_particles(path) if way in ("overlapping", "open_base") else known.get(way, volume)
+    return volume_by_particles(path, "--count", 1000000) if way in ("overlapping", "open_base") else known.get(way, volume)
 
 
 def described(mesh, volume, *words):
@@ -85,8 +85,9 @@ def odd_rows(folder):
     yield ["odd", "cells, volume, smallest angle, time"]
     for name in odd_shapes.SHAPES:
         path = folder / f"{name}.ply"
-        volume = VOLUMES_OF_BOXES.get(name) or volume_by_particles(path, 20000)
-        yield [name, volume if isinstance(volume, str) else described(path, volume, "--count", 5000)]
+        size = ("--radius", 0.004) if name == "random_triangles" else ("--count", 5000)
+        volume = VOLUMES_OF_BOXES.get(name) or volume_by_particles(path, *size)
+        yield [name, volume if isinstance(volume, str) else described(path, volume, *size)]
 
 
 def table(rows):
@@ -107,10 +108,13 @@ def update(name, text):
 
 
 def main():
+    wanted = {"whole", "broken", "odd"} & set(sys.argv[3:])
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         subprocess.run([sys.executable, SOURCE / "data/make_broken.py", folder], check=True)
         for name, rows in (("whole", whole_rows()), ("broken", broken_rows(folder)), ("odd", odd_rows(folder))):
+            if wanted and name not in wanted:
+                continue
             text = table(rows)
             if "--update" in sys.argv:
                 update(name, text)
