@@ -27,6 +27,8 @@ RUNS = {
     "arm": ("arm_bend", []),
     "fox": ("creature_walk", []),
     "elastic_arm": ("arm_bend", ["--set", "material.model=bonded"]),
+    "cells": ("box_bend", ["--set", "material.model=bonded", "--set", "output.volume=true", "--set",
+                           "solver.duration=1.2", "--set", "output.interval=0.1"]),
     "paper": ("box_bend", []),
     "literal": ("paper_literal", []),
     "bend_and_twist": ("box_bend", ["--set", "motion.tracks=[{bone: upper, keys: [{time: 0}, {time: 0.4, euler: "
@@ -92,10 +94,10 @@ def draw_movie(sinew, runs):
 
 
 def draw_window(sinew, runs):
-    """ParaView's window on the state that a run leaves."""
+    """ParaView's window on the state that a run with cells leaves."""
     with tempfile.TemporaryDirectory() as folder:
         picture = Path(folder) / "window.png"
-        subprocess.run([SCREENSHOT, picture, sinew, "view", simulated(sinew, runs, "box_bend")], check=True,
+        subprocess.run([SCREENSHOT, picture, sinew, "view", simulated(sinew, runs, "cells")], check=True,
                        env={**os.environ, "HOME": folder})
         keep(picture, "paraview")
 

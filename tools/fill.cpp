@@ -2,6 +2,7 @@
 // sinew-fill: fills a mesh, or the mesh of a scene, with closest-packed particles.
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -84,8 +85,8 @@ Settings settings_for(const Options& options, const Common& common) {
                                  : settings_for_mesh(options, common);
 }
 
-void print_cells(const VolumeCells& cells, std::size_t particles, const Options& options,
-                 const Common& common) {
+void print_cells(const VolumeCells& cells, std::size_t particles, double seconds,
+                 const Options& options, const Common& common) {
   const CellQuality quality = quality_of(cells);
   Results results;
   results.add("particles", particles);
@@ -94,6 +95,7 @@ void print_cells(const VolumeCells& cells, std::size_t particles, const Options&
   results.add("volume", quality.volume, "m^3");
   results.add("smallest_angle", quality.angles.smallest, "degrees between two faces");
   results.add("largest_angle", quality.angles.largest, "degrees");
+  results.add("seconds_cells", seconds, "s");
   results.add("file", options.output);
   results.print(common);
 }
@@ -107,9 +109,11 @@ Exit fill_with_cells(Options options, const Common& common) {
   const Surface surface = read_mesh(settings);
   const Filling filling = fill_body(settings, surface, options.verify);
   const Points rest = positions_of(filling.particles);
+  const auto start = std::chrono::steady_clock::now();
   const VolumeCells cells = cells_of_body(settings, surface, rest, filling.particles.radius);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   write_cells(options.output, dataset_of(cells));
-  print_cells(cells, rest.size(), options, common);
+  print_cells(cells, rest.size(), taken.count(), options, common);
   for (const std::string& warning : filling.report.warnings)
     say(common, "sinew: warning: " + warning);
   return Exit::done;

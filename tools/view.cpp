@@ -39,7 +39,7 @@ void declare(OptionList& list, Options& options) {
   list.add("DIR", options.folder, "Folder of the run").required();
   list.add_flag("--live", options.live, "Follow a run in progress");
   list.add("--array", options.view.array,
-           "Array that colors the particles, by default strain_eq, or displacement without it");
+           "Array that colors body and skin, by default strain_eq, or displacement without it");
   list.add("--cut", options.view.cut, "Axis across which the body is cut open: x, y, z or none");
   list.add("--forces", options.view.forces,
            "Arrows of a force: force_pair if none is named, force_bone, force, ...")
@@ -262,11 +262,13 @@ Exit view(const Options& options, const Common& common) {
 
 int main(int argc, char** argv) {
   Options options;
-  About about{"view",
-              "Opens a run in ParaView: the body cut open, and its bones within the skin.",
-              {"sinew view out/box_bend", "sinew view --live out/box_bend",
-               "sinew view out/box_bend --array velocity --forces force_pair",
-               "sinew view out/box_bend --picture bent.png --time 1"}};
+  About about{
+      "view",
+      "Opens a run in ParaView: left the body cut open (its cells, if the run has the series "
+      "volume, or its particles), right its bones within the skin, in the same colors.",
+      {"sinew view out/box_bend", "sinew view --live out/box_bend",
+       "sinew view out/box_bend --array velocity --forces force_pair",
+       "sinew view out/box_bend --picture bent.png --time 1"}};
   about.takes_scene = false;
   return run_command(
       argc, argv, about, [&](OptionList& list) { declare(list, options); },

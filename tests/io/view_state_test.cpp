@@ -36,6 +36,23 @@ class ViewState : public Scratch {
     for (Series* series : {&particles, &surface, &bones, &frames}) series->close();
   }
 
+  /// Adds a series of cells with the arrays of the particles, or without any.
+  void write_cells(bool with_arrays = true) {
+    const SyntheticRun run;
+    Series cells(folder, {Encoding::zlib, false, "volume", SyntheticRun::radius});
+    for (const int k : {0, 1}) {
+      Dataset frame = evaluated(run.particles({SyntheticRun::half_turn * k, k}));
+      frame.kind = CellKind::tetrahedron;
+      frame.connectivity = {0, 1, 2, 3};
+      frame.field_columns.clear();
+      if (!with_arrays) frame.point_columns.clear();
+      frame.cell_columns = {column("J", std::vector<double>{1}),
+                            column("torn", std::vector<std::int32_t>{0})};
+      cells.add(frame);
+    }
+    cells.close();
+  }
+
   std::string state(const ViewOptions& options = {}) const {
     return view_state(shown_run(folder, options), options);
   }
@@ -128,6 +145,40 @@ TEST_F(ViewState, CutsAcrossTheAxisAskedForOrNone) {
   write_run();
   EXPECT_EQ(values(state({.cut = "z"}), "Calculator", "Function").at(0), "coordsZ-displacement_Z");
   EXPECT_TRUE(values(state({.cut = "none"}), "Calculator", "Function").empty());
+}
+
+TEST_F(ViewState, CellsAreCutOpenAndTheParticlesHidden) {
+  write_run();
+  EXPECT_FALSE(contains(state(), "untorn cells"));
+  write_cells();
+  const std::string text = state();
+  for (const char* name : {"volume.pvd", "untorn cells", "cut-away body", "cut-away particles"})
+    EXPECT_TRUE(contains(text, name)) << name;
+  EXPECT_EQ(values(text, "Clip", "SelectInputScalars").back(), "place at rest");
+  EXPECT_EQ(values(text, "UnstructuredGridRepresentation", "Visibility").at(0), "0");
+  EXPECT_EQ(values(text, "GeometryRepresentation", "Visibility").at(0), "1");
+  EXPECT_EQ(values(text, "GeometryRepresentation", "ColorArrayName").back(), "displacement");
+  EXPECT_FALSE(contains(state({.cut = "none"}), "\"Clip\""));
+}
+
+TEST_F(ViewState, CellsWithoutTheArrayAreLeftOut) {
+  write_run();
+  write_cells(false);
+  const std::string text = state();
+  EXPECT_FALSE(contains(text, "volume.pvd"));
+  EXPECT_EQ(values(text, "UnstructuredGridRepresentation", "Visibility").at(0), "1");
+}
+
+/// The skin has displacements, but no velocity.
+TEST_F(ViewState, TheSkinHasTheColorsOfTheBodyIfItHasTheArray) {
+  write_run();
+  const auto colored = [&](const char* array) {
+    const std::string text = state({.array = array});
+    return text.find("\"" + std::string(array) + "\"", text.find("SelectNormalArray") - 1500) <
+           text.find("SelectNormalArray");
+  };
+  EXPECT_TRUE(colored("displacement"));
+  EXPECT_FALSE(colored("velocity"));
 }
 
 TEST_F(ViewState, ArrowsOfForcesAreThereAndShownOnDemand) {

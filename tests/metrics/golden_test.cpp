@@ -44,6 +44,10 @@ RestInput lively_input() {
   input.start.pair = 1.5;
   input.law.force = [](double d) { return 40 * (2 * r - d) / r; };
   input.law.bond = [](double d, double before) { return 70 * (before - d) / r; };
+  input.law.energy = [](double d) { return 20 * (2 * r - d) * (2 * r - d) / r; };
+  input.law.bond_energy = [](double d, double before) {
+    return 35 * (before - d) * (before - d) / r;
+  };
   keep_volumes(input, 2e4);
   return input;
 }

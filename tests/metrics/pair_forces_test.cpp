@@ -92,6 +92,79 @@ TEST(PairForces, AreOverTheVolumeThatTheBondsMakeStiff) {
     }
 }
 
+/// The same springs and contacts with their energies.
+RestInput storing() {
+  RestInput input = changing();
+  input.law.energy = [](double d) { return d < 2 * r ? (2 * r - d) * (2 * r - d) : 0; };
+  input.law.bond_energy = [](double d, double rest) { return (rest - d) * (rest - d) / 2; };
+  return input;
+}
+
+/// Energy (J) of so many pairs, half of each a particle's, over the volume of one inside.
+double density(double pairs, double energy) { return pairs * energy / 2 / volume_per_particle(r); }
+
+void expect_density(const RestBody& body, const FrameState& state, double expected) {
+  const std::vector<double> found = energy_densities(body, state);
+  for (std::size_t i = 0; i < body.particles(); ++i)
+    if (body.shape.neighbors.of(i).size() == 12) {
+      EXPECT_NEAR(found[i], expected, 1e-12 * density(12, r * r));
+    }
+}
+
+TEST(EnergyDensity, IsThatOfBondsOfTheirPresentLengths) {
+  const RestBody body = rest_body(storing());
+  FrameState state = moved(body, scaled(1.1));
+  state.bond_rest = times(1.05, first_bond_rest(body));
+  expect_density(body, state, density(12, 0.05 * 2 * r * 0.05 * 2 * r / 2));
+}
+
+TEST(EnergyDensity, IsThatOfContactsWhereBondsBroke) {
+  const RestBody body = rest_body(storing());
+  FrameState state = moved(body, scaled(0.9));
+  state.bond_rest = times(0, first_bond_rest(body));
+  expect_density(body, state, density(12, 0.1 * 2 * r * 0.1 * 2 * r));
+}
+
+TEST(EnergyDensity, HasThatOfTheVolumeUntilABondBreaks) {
+  RestInput input = storing();
+  keep_volumes(input, 1000);
+  const RestBody body = rest_body(input);
+  FrameState state = moved(body, scaled(1.1));
+  state.bond_rest = times(1.1, first_bond_rest(body));
+  const double grown = 1.1 * 1.1 * 1.1 - 1;
+  expect_density(body, state, 1000 * grown * grown / 2);
+  state.bond_rest = times(0, first_bond_rest(body));
+  expect_density(body, state, 0);
+}
+
+/// Weaker bonds stand for less of the body, with the same density.
+TEST(EnergyDensity, IsOverTheVolumeThatTheBondsMakeStiff) {
+  RestInput input = storing();
+  input.law.second = [](double d, double rest) { return (rest - d) / 4; };
+  input.law.second_energy = [](double d, double rest) { return (rest - d) * (rest - d) / 8; };
+  input.law.local = [] {
+    return LocalStiffness{[](std::uint32_t, std::uint32_t) { return 0.5; }, {}};
+  };
+  const RestBody body = rest_body(input);
+  FrameState state = moved(body, scaled(1.1));
+  state.bond_rest = first_bond_rest(body);
+  const double one = 0.1 * 2 * r * 0.1 * 2 * r / 2;
+  const double expected = density(12, one) + density(6, one * 2 / 4);
+  const std::vector<double> found = energy_densities(body, state);
+  for (std::size_t i = 0; i < body.particles(); ++i)
+    if (body.bonds_of(i) == 18) {
+      EXPECT_NEAR(found[i], expected, 1e-12 * expected);
+    }
+}
+
+TEST(EnergyDensity, IsNotKnownWithoutEnergiesOrTheStateOfBonds) {
+  const RestBody stored = rest_body(storing()), forces_only = rest_body(changing());
+  FrameState state = moved(stored, scaled(1.1));
+  for (const double one : energy_densities(stored, state)) EXPECT_TRUE(std::isnan(one));
+  state.bond_rest = first_bond_rest(stored);
+  for (const double one : energy_densities(forces_only, state)) EXPECT_TRUE(std::isnan(one));
+}
+
 TEST(PairForces, OfMusclesAddTheirStress) {
   RestInput input = changing();
   input.law.has_muscles = true;

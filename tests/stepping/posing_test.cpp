@@ -115,4 +115,62 @@ TEST(ParticleMeter, SeesTheStrainOfThePresentMoment) {
   test::expect_bad_input([&] { (void)meter.arrays(simulation, "strian"); }, {"strian"});
 }
 
+/// A bonded body drawn out evenly, of two materials: each has the stress of its own modulus.
+TEST(ParticleMeter, SeesTheStressOfPartsByTheirOwnModulus) {
+  Settings settings = test::box_scene(25);
+  settings.material.model = MaterialModel::bonded;
+  LocalMaterialSettings stiff;
+  stiff.name = "stiff", stiff.young_modulus = 5e4;
+  settings.material.young_modulus = 1e4;
+  stiff.part.region.low = Vec3(-1, -1, 0.17), stiff.part.region.high = Vec3(1, 1, 1);
+  settings.materials = {stiff};
+  const Points rest = test::fcc_box(7, 7, 25, r);
+  Prepared prepared = test::prepared(settings, rest);
+  Triangles skin;
+  skin.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  skin.faces = {{0, 1, 2}};
+  ParticleMeter meter(prepared.body, skin);
+  const double e = 1e-4;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    prepared.filled.particles.set_position(i, Vec3(1, 1, 1 + e).cwiseProduct(rest[i]));
+  const std::vector<double> modulus = prepared.body.stiffness;
+  ASSERT_EQ(modulus.size(), rest.size());
+  Simulation simulation = start(std::move(prepared));
+  const auto stress = std::get<std::vector<double>>(meter.arrays(simulation, "stress")[0].values);
+  // Lame's constants are equal where bonds pull along their lines: lambda + 2 mu = 6/5 E.
+  int inner = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const bool far = std::abs(rest[i].z() - 0.17) > 4 * r;
+    if (!far || meter.rest().bonds_of(i) < 18) continue;
+    EXPECT_NEAR(stress[6 * i + 2] / (1.2 * 1e4 * modulus[i] * e), 1, 0.1);
+    ++inner;
+  }
+  EXPECT_GT(inner, 50);
+}
+
+/// Densities times the volumes of their particles sum up to the energy that the kernel counts.
+TEST(ParticleMeter, SeesTheEnergyOfThePairsWhereItIs) {
+  for (const MaterialModel model :
+       {MaterialModel::paper, MaterialModel::bonded, MaterialModel::bonded_volume}) {
+    Settings settings = bending();
+    settings.material.model = model;
+    Prepared prepared = test::prepared(settings, test::fcc_box(7, 7, 25, r));
+    Triangles skin;
+    skin.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    skin.faces = {{0, 1, 2}};
+    ParticleMeter meter(prepared.body, skin);
+    Simulation simulation = start(std::move(prepared));
+    while (simulation.time() < 0.2) simulation.step();
+    const std::vector<Column> found = meter.arrays(simulation, "energy_density");
+    const auto& density = std::get<std::vector<double>>(found[0].values);
+    const std::vector<double>& share = meter.rest().stiffness().volume_share;
+    double sum = 0;
+    for (std::size_t i = 0; i < density.size(); ++i)
+      sum += density[i] * (share.empty() ? 1 : share[i]) * volume_per_particle(r);
+    const double counted = simulation.energies().pair;
+    EXPECT_GT(std::abs(counted), 1e-6);
+    EXPECT_NEAR(sum / counted, 1, 1e-9) << static_cast<int>(model);
+  }
+}
+
 }  // namespace sinew::posing_test

@@ -309,5 +309,37 @@ class View(unittest.TestCase):
         self.assertGreater(count(armed, right, orange), count(bare, right, orange) + 100)
 
 
+class Cells(unittest.TestCase):
+    """Of a run with the series volume, whose name does not stand in its first tests."""
+
+    def test_the_cut_is_flat(self):
+        """Spheres are shaded from one end to the other; a flat cut has the colors of the scale alone, in whole rows."""
+        as_cells, as_spheres = picture(), self.picture_without_cells()
+        self.assertLess(self.roughness(as_cells), 0.5 * self.roughness(as_spheres))
+
+    def picture_without_cells(self):
+        with tempfile.TemporaryDirectory() as work:
+            away = os.path.join(work, "run")
+            shutil.copytree(RUN, away)
+            os.remove(os.path.join(away, "volume.pvd"))
+            path = os.path.join(work, "picture.png")
+            subprocess.run(["pvbatch", os.path.join(away, "view.py"), "--picture", path, "--size", "800", "400"],
+                           check=True, cwd="/")
+            return pixels_of(path)
+
+    @staticmethod
+    def roughness(drawn):
+        """Mean change of brightness from pixel to pixel in the left view, where both are drawn."""
+        width, _, rows = drawn
+        changes = [abs(sum(row[x]) - sum(row[x + 1])) for row in rows for x in range(width // 2 - 1)
+                   if blue_to_yellow(row[x]) and blue_to_yellow(row[x + 1])]
+        return sum(changes) / len(changes)
+
+
+def blue_to_yellow(pixel):
+    """Whether a pixel has a color of the scale: background, bones and text are gray."""
+    return max(pixel) - min(pixel) > 60
+
+
 if __name__ == "__main__":
     unittest.main(argv=["paraview_test", "-v", *sys.argv[2:]])

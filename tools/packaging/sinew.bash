@@ -14,7 +14,7 @@ _sinew() {
       compopt -o nospace
       return ;;
     --arrays)
-      mapfile -t COMPREPLY < <(compgen -W "F J stretch strain hencky_strain strain_eq stress stress_kirchhoff von_mises D2min turnover surface_layer inverted pose_error all" -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W "F J stretch strain hencky_strain strain_eq stress stress_kirchhoff von_mises energy_density D2min turnover surface_layer inverted pose_error all" -- "$word")
       return ;;
     --view)
       mapfile -t COMPREPLY < <(compgen -W "body surface halves particles section strain forces bonds binding bones" -- "$word")

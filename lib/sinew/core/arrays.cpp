@@ -122,6 +122,9 @@ std::vector<WrittenArray> table_of_measured(const char* series) {
        "Kirchhoff's stress, J times the former, on request"},
       {series, point, "von_mises", "Pa", one, real, plain,
        "von Mises stress of Cauchy's stress, on request and where positions alone do not give it"},
+      {series, point, "energy_density", "J/m^3", one, real, plain,
+       "elastic energy per volume at rest: half of that of its pairs, and that of its volume; on "
+       "request"},
       {series, point, "D2min", "m^2", one, real, plain,
        "non-affine motion of the neighbors, which F does not explain, on request"},
       {series, point, "turnover", "1", one, real, plain,

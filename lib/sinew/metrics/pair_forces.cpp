@@ -20,8 +20,9 @@ struct BondState {
   Vec3 apart;     ///< from it, m
   double length;  ///< m
   double rest;    ///< its rest length, m
-  bool whole;
-  double force;  ///< N, positive repels; 0 once broken
+  bool whole, nearest;
+  double factor;  ///< on its stiffness
+  double force;   ///< N, positive repels; 0 once broken
 };
 
 double factor_of(const LocalStiffness& local, std::size_t i, std::uint32_t j) {
@@ -44,13 +45,13 @@ void for_each_bond(const RestBody& rest, const FrameState& state, std::size_t i,
     if (lists.size() == 0) return;
     for (std::uint32_t e = lists.first[i]; e < lists.first[i + 1]; ++e) {
       const std::uint32_t j = lists.neighbor[e];
-      BondState bond{j, now[i] - now[j], 0, 0, true, 0};
+      BondState bond{j, now[i] - now[j], 0, 0, true, nearest, factor_of(local, i, j), 0};
       bond.length = bond.apart.norm();
       bond.rest = state.bond_rest.empty() ? (rest.shape.points[i] - rest.shape.points[j]).norm()
                                           : state.bond_rest[before + e];
       bond.whole = bond.rest > 0 && bond.length < rest.law.reach;
       if (bond.whole)
-        bond.force = factor_of(local, i, j) * force_of(rest.law, nearest, bond.length, bond.rest);
+        bond.force = bond.factor * force_of(rest.law, nearest, bond.length, bond.rest);
       visit(bond);
     }
   };
@@ -63,15 +64,84 @@ Mat3 virial(double force, const Vec3& apart, double d) {
   return -force / d * apart * apart.transpose();
 }
 
-/// Returns the stress of a particle's volume energy U = (K_v / 2) V0 w (J - 1)^2, over V0. It is
-/// severed and keeps no volume once a bond broke.
-Mat3 volume_stress(const RestBody& rest, const FrameState& state, std::size_t i, bool severed) {
+/// Stiffness K_v w (Pa) and J of the energy of a particle's volume, U = (K_v / 2) V0 w (J - 1)^2.
+/// It is severed and keeps no volume once a bond broke.
+struct KeptVolume {
+  double stiffness = 0, J = 1;
+
+  Mat3 stress() const { return stiffness * (J - 1) * J * Mat3::Identity(); }
+  double energy_density() const { return stiffness / 2 * (J - 1) * (J - 1); }
+};
+
+KeptVolume kept_volume(const RestBody& rest, const FrameState& state, std::size_t i, bool severed) {
   const std::vector<double>& weight = rest.stiffness().local.volume_weight;
-  if (weight.empty() || weight[i] == 0 || severed) return Mat3::Zero();
-  const double J = deformation_gradient(rest.shape, state.positions, i).determinant();
+  if (weight.empty() || weight[i] == 0 || severed) return {};
   const auto& local = rest.law.volume_stiffness_of;
-  const double stiffness = local.empty() ? rest.law.volume_stiffness : local[i];
-  return stiffness * weight[i] * (J - 1) * J * Mat3::Identity();
+  return {(local.empty() ? rest.law.volume_stiffness : local[i]) * weight[i],
+          deformation_gradient(rest.shape, state.positions, i).determinant()};
+}
+
+/// Calls on_bond(BondState) for the bonds of particle i that hold, and on_other(Neighbor) for all
+/// others within b. Returns whether a bond of it broke.
+template <class OnBond, class OnOther>
+bool for_each_pair(const RestBody& rest, const FrameState& state,
+                   std::span<const Neighbor> neighbors, std::size_t i, const OnBond& on_bond,
+                   const OnOther& on_other) {
+  const double range = rest.interaction_range;
+  const bool has_bonds = static_cast<bool>(rest.law.bond);
+  const auto nearest = rest.shape.neighbors.of(i);
+  const std::uint32_t first = rest.shape.neighbors.first[i];
+  const auto bonded = [&](std::uint32_t j) {
+    const auto at = std::lower_bound(nearest.begin(), nearest.end(), j);
+    if (at == nearest.end() || *at != j) return false;
+    return state.bond_rest.empty() ||
+           state.bond_rest[first + static_cast<std::size_t>(at - nearest.begin())] > 0;
+  };
+  bool severed = false;
+  if (has_bonds)
+    for_each_bond(rest, state, i, [&](const BondState& bond) {
+      severed = severed || !(bond.rest > 0);
+      if (bond.whole && bond.length > 0) on_bond(bond);
+    });
+  for (const Neighbor& other : neighbors)
+    if (other.squared < range * range && other.squared > 0 && !(has_bonds && bonded(other.index)))
+      on_other(other);
+  return severed;
+}
+
+/// Volume of a particle over that of one inside.
+double volume_share(const RestBody& rest, std::size_t i) {
+  const std::vector<double>& shares = rest.stiffness().volume_share;
+  return shares.empty() ? 1 : shares[i];
+}
+
+/// Calls found(i, its neighbors within b) for each particle. In parallel.
+template <class Found>
+void for_each_surrounded(const RestBody& rest, const FrameState& state, const Found& found) {
+  const CellGrid grid(state.positions, rest.interaction_range);
+  parallel_for(rest.particles(), particles_per_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> neighbors;
+    for (std::size_t i = begin; i < end; ++i) {
+      find_neighbors(state.positions, grid, rest.interaction_range, i, neighbors);
+      found(i, std::span<const Neighbor>(neighbors));
+    }
+  });
+}
+
+double energy_density(const RestBody& rest, const FrameState& state,
+                      std::span<const Neighbor> neighbors, std::size_t i) {
+  const ForcesOfPairs& law = rest.law;
+  double sum = 0;
+  const bool severed = for_each_pair(
+      rest, state, neighbors, i,
+      [&](const BondState& bond) {
+        const auto& energy = bond.nearest ? law.bond_energy : law.second_energy;
+        sum += bond.factor * energy(bond.length, bond.rest) / 2;
+      },
+      [&](const Neighbor& other) { sum += law.energy(std::sqrt(other.squared)) / 2; });
+  const double of_volume = kept_volume(rest, state, i, severed).energy_density();
+  const double share = volume_share(rest, i);
+  return share > 0 ? (sum / volume_per_particle(rest.radius) + of_volume) / share : not_measured;
 }
 
 }  // namespace
@@ -94,47 +164,35 @@ bool knows_forces(const RestBody& rest, const FrameState& state) {
 
 Mat3 kirchhoff_stress(const RestBody& rest, const FrameState& state,
                       std::span<const Neighbor> neighbors, std::size_t i) {
-  const double range = rest.interaction_range;
-  const bool has_bonds = static_cast<bool>(rest.law.bond);
-  const auto nearest = rest.shape.neighbors.of(i);
-  const std::uint32_t first = rest.shape.neighbors.first[i];
-  const auto bonded = [&](std::uint32_t j) {
-    const auto at = std::lower_bound(nearest.begin(), nearest.end(), j);
-    if (at == nearest.end() || *at != j) return false;
-    return state.bond_rest.empty() ||
-           state.bond_rest[first + static_cast<std::size_t>(at - nearest.begin())] > 0;
-  };
   Mat3 sum = Mat3::Zero();
-  bool severed = false;
-  if (has_bonds)
-    for_each_bond(rest, state, i, [&](const BondState& bond) {
-      severed = severed || !(bond.rest > 0);
-      if (bond.whole && bond.length > 0) sum += virial(bond.force, bond.apart, bond.length);
-    });
-  for (const Neighbor& other : neighbors) {
-    if (other.squared >= range * range || other.squared == 0) continue;
-    if (has_bonds && bonded(other.index)) continue;
-    const double d = std::sqrt(other.squared);
-    sum += virial(rest.law.force(d), other.apart, d);
-  }
-  const std::vector<double>& shares = rest.stiffness().volume_share;
-  const double volume_share = shares.empty() ? 1 : shares[i];
-  if (!(volume_share > 0)) return Mat3::Constant(not_measured);
+  const bool severed = for_each_pair(
+      rest, state, neighbors, i,
+      [&](const BondState& bond) { sum += virial(bond.force, bond.apart, bond.length); },
+      [&](const Neighbor& other) {
+        const double d = std::sqrt(other.squared);
+        sum += virial(rest.law.force(d), other.apart, d);
+      });
+  const double share = volume_share(rest, i);
+  if (!(share > 0)) return Mat3::Constant(not_measured);
   const Mat3 passive = sum / (2 * volume_per_particle(rest.radius));
-  const Mat3 stress = (passive + volume_stress(rest, state, i, severed)) / volume_share;
+  const Mat3 stress = (passive + kept_volume(rest, state, i, severed).stress()) / share;
   return state.muscle_stress.empty() ? stress : Mat3(stress + state.muscle_stress[i]);
 }
 
 std::vector<Mat3> kirchhoff_stresses(const RestBody& rest, const FrameState& state) {
   std::vector<Mat3> found(state.positions.size(), Mat3::Constant(not_measured));
   if (!knows_forces(rest, state)) return found;
-  const CellGrid grid(state.positions, rest.interaction_range);
-  parallel_for(found.size(), particles_per_task, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbor> neighbors;
-    for (std::size_t i = begin; i < end; ++i) {
-      find_neighbors(state.positions, grid, rest.interaction_range, i, neighbors);
-      found[i] = kirchhoff_stress(rest, state, neighbors, i);
-    }
+  for_each_surrounded(rest, state, [&](std::size_t i, std::span<const Neighbor> neighbors) {
+    found[i] = kirchhoff_stress(rest, state, neighbors, i);
+  });
+  return found;
+}
+
+std::vector<double> energy_densities(const RestBody& rest, const FrameState& state) {
+  std::vector<double> found(state.positions.size(), not_measured);
+  if (!knows_forces(rest, state) || !rest.law.energy) return found;
+  for_each_surrounded(rest, state, [&](std::size_t i, std::span<const Neighbor> neighbors) {
+    found[i] = energy_density(rest, state, neighbors, i);
   });
   return found;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What acts between the particles of a frame: bonds, contacts and volumes, and the stress of them.
+// What acts between the particles of a frame: bonds, contacts and volumes, and the stress and the
+// energy of them.
 //
 //     const std::vector<Mat3> stress = kirchhoff_stresses(rest, state);
 //     const BondValues bonds = bond_values(rest, state);
@@ -39,6 +40,10 @@ Mat3 kirchhoff_stress(const RestBody& rest, const FrameState& state,
 
 /// Finds it for each particle; not-a-number where the forces are not known. In parallel.
 std::vector<Mat3> kirchhoff_stresses(const RestBody& rest, const FrameState& state);
+
+/// Elastic energy of each particle over the same volume V, J/m^3: half of that of its pairs, and
+/// that of its volume. Not-a-number where forces or energies are not known. In parallel.
+std::vector<double> energy_densities(const RestBody& rest, const FrameState& state);
 
 /// Below this volume ratio a body is crushed flat or folded, and has no true stress.
 inline constexpr double min_volume_ratio = 0.05;

@@ -260,6 +260,8 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
       columns.push_back(of_gradient<6>(name, rest, now, hencky));
     else if (name == "stress" || name == "stress_kirchhoff")
       columns.push_back(stress_column(name, rest, state));
+    else if (name == "energy_density")
+      columns.push_back(column(std::string(name), energy_densities(rest, state)));
     else if (name == "surface_layer")
       columns.push_back(column(std::string(name), rest.layer));
     else {
@@ -278,6 +280,10 @@ const char* why_undefined(std::string_view name) {
   if (name == "stress" || name == "stress_kirchhoff" || name == "von_mises")
     return "forces of muscles and of bonds that break or creep do not follow from positions alone; "
            "the run itself writes it, by output.arrays";
+  if (name == "energy_density")
+    return "energies of bonds that break, creep or relax do not follow from positions alone; of "
+           "those "
+           "that break or creep, the run itself writes it, by output.arrays";
   if (name == "pose_error") return "no particle has a bone";
   return "all neighbors of each particle lie in a plane";
 }

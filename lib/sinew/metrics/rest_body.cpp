@@ -115,7 +115,7 @@ bool all_finite(const Points& points) {
 
 namespace {
 
-/// Sums k l^2 over a particle's bonds, over that of one inside, where springs differ in stiffness.
+/// Sums k l^2 over a particle's bonds, over that of one inside, as if all were of one material.
 std::vector<double> volume_shares_by_stiffness(const RestBody& body, const LocalStiffness& local) {
   const ForcesOfPairs& law = body.law;
   if (!local.factor || !law.second) return {};
@@ -126,7 +126,8 @@ std::vector<double> volume_shares_by_stiffness(const RestBody& body, const Local
   const auto add = [&](const NeighborLists& lists, double stiffness) {
     for (std::size_t i = 0; i < lists.size(); ++i)
       for (const std::uint32_t j : lists.of(i))
-        volume_shares[i] += local.factor(static_cast<std::uint32_t>(i), j) * stiffness / inside *
+        volume_shares[i] += local.factor(static_cast<std::uint32_t>(i), j) /
+                            local.modulus_between(i, j) * stiffness / inside *
                             (body.shape.points[i] - body.shape.points[j]).squaredNorm();
   };
   add(body.shape.neighbors, k);

@@ -26,6 +26,13 @@ struct LocalStiffness {
   /// Factor on the force of two particles' bond; empty: 1.
   std::function<double(std::uint32_t, std::uint32_t)> factor;
   std::vector<double> volume_weight;  ///< by particle; empty: none keeps its volume
+  /// Modulus of each particle's material over the body's, which factors contain as that of springs
+  /// in series; empty: 1.
+  std::vector<double> modulus = {};
+
+  double modulus_between(std::size_t i, std::size_t j) const {
+    return modulus.empty() ? 1 : 2 / (1 / modulus[i] + 1 / modulus[j]);
+  }
 };
 
 /// The forces between particles as functions of their distances. Called from several threads.
@@ -36,6 +43,9 @@ struct ForcesOfPairs {
   std::function<double(double, double)> bond;
   /// The same between second neighbors at rest, which also act as others do; empty: no more.
   std::function<double(double, double)> second;
+  /// Energies of the same three, J; empty: not known.
+  std::function<double(double)> energy;
+  std::function<double(double, double)> bond_energy, second_energy;
   /// Called once, where forces are asked for first: it may take seconds. Empty: the same
   /// throughout.
   std::function<LocalStiffness()> local;

@@ -17,9 +17,8 @@ namespace {
 RestBody measured_rest(const Body& body, const Triangles& surface, SharedNeighbors near) {
   RestInput input = measured_body(body.material, body.skeleton);
   input.neighbors = near ? std::move(near) : body.neighbors;
-  input.law.local = [factors = std::make_shared<const BondFactors>(body.factors)] {
-    return stiffness_by(factors);
-  };
+  input.law.local = [factors = std::make_shared<const BondFactors>(body.factors),
+                     modulus = body.stiffness] { return stiffness_by(factors, modulus); };
   input.law.volume_stiffness_of = body.local.volume;
   input.law.has_muscles = has_muscles(body);
   input.positions = body.rest;

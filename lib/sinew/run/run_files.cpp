@@ -325,12 +325,13 @@ void FramesInOrder::begin() {
                                [&run = run_, index = index_++] { return read_frame(run, index); }));
 }
 
-LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors) {
+LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors,
+                            std::vector<double> modulus) {
   std::vector<double> weights = factors->volume_weight;
   return {[factors = std::move(factors)](std::uint32_t i, std::uint32_t j) {
             return factors->of(i).at(j);
           },
-          std::move(weights)};
+          std::move(weights), std::move(modulus)};
 }
 
 ForcesOfPairs pair_law(const Material& material) {
@@ -338,15 +339,19 @@ ForcesOfPairs pair_law(const Material& material) {
   ForcesOfPairs measured;
   measured.bonds_change = bonds_change(material);
   if (!law.has_bonds) measured.reach = material.pair.b;
+  const auto bond_of = [&law, &material](auto value, double stiffness) {
+    return [&law, material, value, stiffness](double d, double rest) {
+      return (law.*value)(material, {rest, stiffness}, d);
+    };
+  };
   measured.force = [&law, material](double d) { return law.force(material, d); };
-  if (law.has_memory)
-    measured.bond = [&law, material](double d, double rest) {
-      return law.bond_force(material, {rest, material.bond.stiffness}, d);
-    };
-  if (material.bond.second > 0) {
-    measured.second = [&law, material](double d, double rest) {
-      return law.bond_force(material, {rest, material.bond.second}, d);
-    };
+  if (law.has_memory) measured.bond = bond_of(&ForceLaw::bond_force, material.bond.stiffness);
+  if (material.bond.second > 0)
+    measured.second = bond_of(&ForceLaw::bond_force, material.bond.second);
+  if (material.bond.branch_count() == 0) {  // what branches store is not in their lengths
+    measured.energy = [&law, material](double d) { return law.energy(material, d); };
+    measured.bond_energy = bond_of(&ForceLaw::bond_energy, material.bond.stiffness);
+    measured.second_energy = bond_of(&ForceLaw::bond_energy, material.bond.second);
   }
   if (law.has_bonds) measured.volume_stiffness = material.volume_stiffness;
   return measured;
@@ -384,9 +389,11 @@ RestInput measured_body(const RunFiles& run) {
       rest_neighbors(input.positions, run.material.pair.r, run.material.bond.second > 0));
   input.law.local = [&run, near = input.neighbors] {
     const LocalMaterial local = local_material(run.body);
-    return stiffness_by(std::make_shared<const BondFactors>(
-        bond_factors(positions_of(run.body.particles), *near, run.material, local.volume_share,
-                     local.stiffness, run.body.volume_stiffness.value_or(std::vector<double>{}))));
+    return stiffness_by(
+        std::make_shared<const BondFactors>(bond_factors(
+            positions_of(run.body.particles), *near, run.material, local.volume_share,
+            local.stiffness, run.body.volume_stiffness.value_or(std::vector<double>{}))),
+        local.stiffness);
   };
   if (run.body.volume_stiffness) input.law.volume_stiffness_of = *run.body.volume_stiffness;
   if (run.body.density) input.density = *run.body.density;

@@ -103,8 +103,9 @@ class FramesInOrder {
 
 /// The material's forces between particles, the same throughout.
 ForcesOfPairs pair_law(const Material& material);
-/// The stiffness around each particle.
-LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors);
+/// The stiffness around each particle; `modulus` as LocalStiffness::modulus.
+LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors,
+                            std::vector<double> modulus);
 
 /// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds
 /// positions, surface and the bones of particles.

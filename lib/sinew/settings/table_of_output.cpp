@@ -19,9 +19,9 @@ std::vector<Field<Settings>> content_rows() {
                         "arrays of particles beside the usual ones (strain_eq is one up to "
                         "200,000 particles), such as \"J, stress\", or all: F, J, stretch, "
                         "strain, hencky_strain, strain_eq, stress, stress_kirchhoff, "
-                        "von_mises, D2min, turnover, surface_layer, inverted, pose_error; by "
-                        "forces and bones acceleration, bone_point, force_radial, "
-                        "force_twist, force_axial")),
+                        "von_mises, energy_density, D2min, turnover, surface_layer, "
+                        "inverted, pose_error; by forces and bones acceleration, bone_point, "
+                        "force_radial, force_twist, force_axial")),
       may_lack("all", field<S>("output", "only", SINEW_AT(S, output.only), "",
                                "the only arrays of particles beside those of output.arrays, such "
                                "as \"displacement, velocity\"")),

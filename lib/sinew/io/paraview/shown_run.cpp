@@ -151,10 +151,21 @@ void read_supports(ShownRun& run) {
   }
 }
 
-/// Whether the first frame of the series has.
-bool has_cells(const ShownRun& run, const std::string& series) {
+/// The first frame of a series, with these arrays only; empty where there is none.
+Dataset first_frame(const ShownRun& run, const std::string& series,
+                    std::initializer_list<const char*> arrays = {}) {
+  if (!run.has(series)) return {};
   const std::vector<PvdRow> rows = read_pvd(run.folder / (series + ".pvd"));
-  return !rows.empty() && read_vtu(run.folder / rows[0].file).cells() > 0;
+  return rows.empty() ? Dataset{} : read_vtu(run.folder / rows[0].file, arrays);
+}
+
+/// Cells that lack the array, or what their cut needs, are not shown.
+void choose_cells(ShownRun& run) {
+  const Dataset cells = first_frame(run, "volume", {run.array.c_str(), "displacement", "torn"});
+  run.has_cells = cells.cells() > 0 && has_array(cells, run.array) &&
+                  has_array(cells, "displacement") && find(cells.cell_columns, "torn") != nullptr;
+  if (!run.has_cells) std::erase(run.series, "volume");
+  run.skin_has_array = has_array(first_frame(run, "surface", {run.array.c_str()}), run.array);
 }
 
 /// Nearest time of a frame.
@@ -183,7 +194,8 @@ ShownRun shown_run(const fs::path& folder, const ViewOptions& options) {
   if (rows.empty())
     throw bad_input(Place{folder.string()}, "the run has no frames yet", "wait for its first one");
   for (const PvdRow& row : rows) run.times.push_back(row.time);
-  for (const char* name : {"particles", "surface", "bones", "frames", "obstacles", "supports"})
+  for (const char* name :
+       {"particles", "volume", "surface", "bones", "frames", "obstacles", "supports"})
     if (fs::exists(run.folder / (std::string(name) + ".pvd"))) run.series.emplace_back(name);
   const Dataset rest = read_vtu(run.folder / "body.vtu", {"radius"});
   if (rest.points.empty())
@@ -195,7 +207,8 @@ ShownRun shown_run(const fs::path& folder, const ViewOptions& options) {
   choose_arrays(run, run.folder / rows[0].file, options);
   read_particles(run, rows, rest.points.size());
   if (run.has("supports")) read_supports(run);
-  run.has_bones = run.has("bones") && has_cells(run, "bones");
+  choose_cells(run);
+  run.has_bones = first_frame(run, "bones").cells() > 0;
   run.moment = frame_at(run.times, options.time.value_or(run.moment));
   return run;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What must be known of a run before it is shown: its series, the room it needs, the range of
-// colors, the largest forces, and the moment at which its body is most deformed.
+// What must be known of a run before it is shown: its series, whether its body has cells, the room
+// it needs, the range of colors, the largest forces, and the moment at which its body is most
+// deformed.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ constexpr double arrow_fraction = 0.2;
 
 /// What a user may choose.
 struct ViewOptions {
-  std::string array = {};  ///< that colors the particles; "": strain_eq, or else displacement
+  std::string array = {};  ///< that colors body and skin; "": strain_eq, or else displacement
   std::string cut = "y";   ///< axis across which the body is cut open: x, y, z or none
   std::optional<std::string> forces = {};  ///< as arrows; "": force_pair
   std::optional<double> time = {};         ///< s; none: when the array is largest
@@ -34,7 +35,9 @@ struct ShownRun {
   double radius = 0;        ///< of the particles, m
   bool can_be_cut = false;  ///< the frames tell where particles were at rest
   bool has_bones = false;
-  std::string array, unit;            ///< that colors the particles
+  bool has_cells = false;             ///< the series `volume` has the array
+  bool skin_has_array = false;        ///< and so has the series `surface`
+  std::string array, unit;            ///< that colors body and skin
   int components = 1;                 ///< of it
   std::array<double, 2> range{0, 1};  ///< of it, without the hundredth farthest out
   bool grows = false;    ///< the range is not known yet: there is only the body at rest

@@ -47,6 +47,8 @@ diffuseColor = diffuseColor * (0.25 + 0.75 * light) + vec3(shine);
 constexpr double lab = 2, magnitude = 0, custom_shader = 6, gradient = 1;
 constexpr double snap_to_timesteps = 2;
 constexpr double never = -1, grow_every_timestep = 1;
+/// Bones shine through the skin.
+constexpr double skin_opacity = 0.45, bare_skin_opacity = 0.2;
 constexpr double upper_left = 4, lower_center = 3, horizontal = 0, any_place = 0;
 
 Color of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -60,7 +62,9 @@ class Show {
   std::string text() {
     parts_ = view_pipeline(state_, run_, options_);
     left_ = &begin_view("body"), right_ = &begin_view("bones");
-    std::vector<const StateProxy*> shown = {&particles(), &color_bar()};
+    std::vector<const StateProxy*> shown = {&particles()};
+    if (parts_.body != nullptr) shown.push_back(&cells());
+    shown.push_back(&color_bar());
     add_common(shown, 0.35);
     shown.push_back(&note(*parts_.time, ink, upper_left));
     left_->refer("Representations", shown);
@@ -77,10 +81,11 @@ class Show {
   }
 
  private:
-  StateProxy& representation(const std::string& name, const char* type, const StateProxy& input) {
+  StateProxy& representation(const std::string& name, const char* type, const StateProxy& input,
+                             bool visible = true) {
     return state_.add("representations", type, "representations", name + std::to_string(++shown_))
         .refer("Input", {&input})
-        .number("Visibility", 1);
+        .number("Visibility", visible);
   }
 
   /// In one color.
@@ -94,10 +99,23 @@ class Show {
         .number("Opacity", opacity);
   }
 
+  /// Colors it by the array.
+  StateProxy& colored(StateProxy& shown) {
+    return shown.text("Representation", {"Surface"})
+        .array("ColorArrayName", false, run_.array)
+        .refer("LookupTable", {table_})
+        .number("Ambient", 0.35)  // what is seen at an angle still has the colors of the scale
+        .number("Diffuse", 0.75);
+  }
+
   StateProxy& skin_in_view() {
-    return shape("surface", "UnstructuredGridRepresentation", *parts_.series["surface"], skin, 0.2)
-        .text("SelectNormalArray", {"normal"})
-        .number("Specular", 0.3);
+    constexpr const char* type = "UnstructuredGridRepresentation";
+    const StateProxy& series = *parts_.series["surface"];
+    StateProxy& shown =
+        run_.skin_has_array
+            ? colored(representation("surface", type, series)).number("Opacity", skin_opacity)
+            : shape("surface", type, series, skin, bare_skin_opacity);
+    return shown.text("SelectNormalArray", {"normal"}).number("Specular", 0.3);
   }
 
   StateProxy& as_spheres(StateProxy& points, double radius) {
@@ -108,8 +126,14 @@ class Show {
         .number("GaussianRadius", radius);
   }
 
+  StateProxy& cells() {
+    return colored(representation("cells", "GeometryRepresentation", *parts_.body));
+  }
+
+  /// Hidden where cells are shown, to be switched to.
   StateProxy& particles() {
-    StateProxy& points = representation("body", "UnstructuredGridRepresentation", *parts_.body);
+    StateProxy& points = representation("body", "UnstructuredGridRepresentation", *parts_.particles,
+                                        parts_.body == nullptr);
     return as_spheres(points, run_.radius)
         .array("ColorArrayName", false, run_.array)
         .refer("LookupTable", {&color_table()});

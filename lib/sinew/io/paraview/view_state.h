@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ParaView state that shows a run: the body cut open, and its bones within the skin. ParaView
-// opens it without its Python, from 5.10 on.
+// A ParaView state that shows a run: the body cut open (its cells, or else its particles), and its
+// bones within the skin. ParaView opens it without its Python, from 5.10 on.
 //
 //     write_view_state("out/bend", "out/bend/view.pvsm");
 #pragma once

@@ -11,6 +11,8 @@ namespace {
 // Numbers of ParaView's enumerations.
 constexpr double above_upper = 2, every_nth_point = 1, all_points = 0;
 
+constexpr double crease = 40;  ///< degrees: flatter edges of the body are shaded smoothly
+
 constexpr std::size_t max_arrows = 1500;  // more would hide each other
 constexpr double bone_fraction = 0.009;   // radius of a bone's tube in the size of the body
 
@@ -21,7 +23,8 @@ class Pipeline {
 
   ViewPipeline made() {
     open_series();
-    made_.body = &cut_body();
+    made_.particles = &cut_particles();
+    if (run_.has_cells) made_.body = &cut_cells();
     if (run_.has("surface")) made_.edges = &feature_edges();
     if (run_.has_bones) {
       made_.bones = &tubes_of("bone", 0, 0, bone_radius(run_));
@@ -52,20 +55,48 @@ class Pipeline {
                                 .text("FileName", {(run_.folder / (name + ".pvd")).string()});
   }
 
+  int axis() const { return options_.cut.at(0) - 'x'; }
+  double middle() const { return (run_.rest[0][axis()] + run_.rest[1][axis()]) / 2; }
+
+  /// Along the axis of the cut.
+  StateProxy& place_at_rest(const std::string& name, const StateProxy& input) {
+    const std::string letter(1, static_cast<char>('X' + axis()));
+    return filter("Calculator", name, input)
+        .text("ResultArrayName", {"place at rest"})
+        .text("Function", {"coords" + letter + "-displacement_" + letter});
+  }
+
   /// The particles beyond a plane across an axis. It deforms with the body, so that the same
   /// particles are seen at all times.
-  StateProxy& cut_body() {
+  StateProxy& cut_particles() {
     if (options_.cut == "none" || !run_.can_be_cut) return *made_.series["particles"];
-    const auto axis = static_cast<int>(options_.cut.at(0) - 'x');
-    const std::string letter(1, static_cast<char>('X' + axis));
-    StateProxy& place = filter("Calculator", "place at rest", *made_.series["particles"])
-                            .text("ResultArrayName", {"place at rest"})
-                            .text("Function", {"coords" + letter + "-displacement_" + letter});
-    return filter("Threshold", "cut-away body", place)
+    const StateProxy& place = place_at_rest("place at rest", *made_.series["particles"]);
+    return filter("Threshold", run_.has_cells ? "cut-away particles" : "cut-away body", place)
         .array("SelectInputScalars", false, "place at rest")
         .number("ThresholdMethod", above_upper)
         .number("LowerThreshold", 0)
-        .number("UpperThreshold", (run_.rest[0][axis] + run_.rest[1][axis]) / 2);
+        .number("UpperThreshold", middle());
+  }
+
+  /// The same of cells, which are cut where the plane goes through them.
+  StateProxy& cut_cells() {
+    StateProxy* body = &filter("Threshold", "untorn cells", *made_.series["volume"])
+                            .array("SelectInputScalars", true, "torn")
+                            .number("LowerThreshold", 0)
+                            .number("UpperThreshold", 0);
+    if (options_.cut != "none") {
+      const StateProxy& place = place_at_rest("place of cells at rest", *body);
+      body = &filter("Clip", "cut-away body", place);
+      const StateProxy& by_scalar =
+          state_.add("implicit_functions", "Scalar",
+                     "pq_helper_proxies." + std::to_string(body->id()), "ClipFunction");
+      body->refer("ClipFunction", {&by_scalar})
+          .array("SelectInputScalars", false, "place at rest")
+          .number("Value", middle())
+          .number("Invert", 0);
+    }
+    const StateProxy& outside = filter("DataSetSurfaceFilter", "outside of the body", *body);
+    return filter("PolyDataNormals", "smooth body", outside).number("FeatureAngle", crease);
   }
 
   StateProxy& feature_edges() {

@@ -16,7 +16,8 @@ namespace sinew {
 /// nullptr where the run has no such part.
 struct ViewPipeline {
   std::map<std::string, StateProxy*> series;  ///< readers, by the names of the series
-  StateProxy* body = nullptr;                 ///< particles, cut open
+  StateProxy* particles = nullptr;            ///< cut open
+  StateProxy* body = nullptr;                 ///< the surface of the cells, cut open
   StateProxy* edges = nullptr;                ///< of the skin
   StateProxy* bones = nullptr;                ///< tubes from head to tail
   StateProxy* axes = nullptr;                 ///< tubes along the axes of the bones

@@ -31,7 +31,7 @@ class Follower:
         self.hardest = 0
         self.scene = None
         self.wait_for_first()
-        self.series += [series for series in ("obstacles", "supports") if os.path.exists(self.path(series, 0))]
+        self.series += [series for series in ("volume", "obstacles", "supports") if os.path.exists(self.path(series, 0))]
 
     def path(self, series, number):
         return os.path.join(self.folder, series, f"{series}_{number:06d}.vtu")
@@ -130,11 +130,12 @@ def time_note(source):
     return note
 
 
-def scene_of(folder, follower, options):
+def scene_of(folder, follower, sources, options):
     scene = Scene(folder)
     newest = follower.path("particles", follower.number)
     options.array = options.array or default_array(newest)
     scene.array = array_or_stop(newest, options.array)
+    keep_what_has_the_array(scene, sources, options.array, lambda series: follower.path(series, follower.number))
     follower.grow_limits()
     scene.limits = options.range or follower.limits
     scene.hardest = follower.hardest
@@ -198,7 +199,7 @@ def main():
     global follower
     follower = Follower(folder, options)
     sources = {series: live_source(series) for series in follower.series}
-    layout, left = show_all(sources, options, scene_of(folder, follower, options))
+    layout, left = show_all(sources, options, scene_of(folder, follower, sources, options))
     show_time(time_note(sources["particles"]), left, options)
     SetActiveSource(sources["particles"])
     if "pvbatch" not in program() and "pvpython" not in program():

@@ -31,6 +31,9 @@ ambientColor = ambientColor * (0.25 + 0.75 * light) + vec3(shine);
 diffuseColor = diffuseColor * (0.25 + 0.75 * light) + vec3(shine);
 """
 MOST_ARROWS = 1500  # more would hide each other
+SKIN_OPACITY, BARE_SKIN_OPACITY = 0.45, 0.2  # bones shine through
+LIGHT = 0.35, 0.75  # ambient and diffuse: what is seen at an angle still has the colors of the scale
+CREASE = 40  # degrees: flatter edges of the body are shaded smoothly
 
 
 def as_spheres(shown):
@@ -40,20 +43,46 @@ def as_spheres(shown):
     shown.CustomShader = SPHERE
 
 
-def cut_body(source, options, scene):
+def place_at_rest(name, source, options):
+    """Along the axis of the cut."""
+    axis = options.cut.upper()
+    place = Calculator(registrationName=name, Input=source)
+    place.ResultArrayName = "place at rest"
+    place.Function = f"coords{axis}-displacement_{axis}"
+    return place
+
+
+def middle_of_cut(options, scene):
+    return scene.middle["xyz".index(options.cut)]
+
+
+def cut_particles(source, options, scene, name):
     """The particles beyond a plane across an axis. It deforms with the body, so that the same
     particles are seen at all times. Change the threshold to move it."""
     if options.cut == "none":
         return source
-    axis = options.cut.upper()
-    place = Calculator(registrationName="place at rest", Input=source)
-    place.ResultArrayName = "place at rest"
-    place.Function = f"coords{axis}-displacement_{axis}"
-    cut = Threshold(registrationName="cut-away body", Input=place)
+    cut = Threshold(registrationName=name, Input=place_at_rest("place at rest", source, options))
     cut.Scalars = ["POINTS", "place at rest"]
     cut.ThresholdMethod = "Above Upper Threshold"
-    cut.UpperThreshold = scene.middle["XYZ".index(axis)]
+    cut.UpperThreshold = middle_of_cut(options, scene)
     return cut
+
+
+def cut_cells(source, options, scene):
+    """The surface of the same part of the body, by its cells, without torn ones."""
+    body = Threshold(registrationName="untorn cells", Input=source)
+    body.Scalars = ["CELLS", "torn"]
+    body.LowerThreshold = body.UpperThreshold = 0
+    if options.cut != "none":
+        body = Clip(registrationName="cut-away body", Input=place_at_rest("place of cells at rest", body, options))
+        body.ClipType = "Scalar"
+        body.Scalars = ["POINTS", "place at rest"]
+        body.Value = middle_of_cut(options, scene)
+        body.Invert = 0
+    outside = ExtractSurface(registrationName="outside of the body", Input=body)
+    smooth = GenerateSurfaceNormals(registrationName="smooth body", Input=outside)
+    smooth.FeatureAngle = CREASE
+    return smooth
 
 
 def spread_colors(colors, low, high):
@@ -75,16 +104,31 @@ def color_table(options, limits):
     return colors
 
 
-def show_particles(source, view, options, array, limits):
+def color_by_array(shown, options, scene):
+    ColorBy(shown, ("POINTS", options.array) + (("Magnitude",) if is_vector(scene.array) else ()))
+    color_table(options, scene.limits)
+
+
+def show_particles(source, view, options, scene):
     shown = Show(source, view)
     as_spheres(shown)
     shown.GaussianRadius = 1.0
     shown.ScaleByArray = 1
     shown.SetScaleArray = ["POINTS", "radius"]
     shown.UseScaleFunction = 0
-    ColorBy(shown, ("POINTS", options.array) + (("Magnitude",) if is_vector(array) else ()))
-    bar = GetScalarBar(color_table(options, limits), view)
-    bar.Title = f"{plain_name(options.array)} ({array['unit']})"
+    color_by_array(shown, options, scene)
+
+
+def show_cells(source, view, options, scene):
+    shown = Show(source, view)
+    shown.SetRepresentationType("Surface")
+    shown.Ambient, shown.Diffuse = LIGHT
+    color_by_array(shown, options, scene)
+
+
+def show_color_bar(source, view, options, scene):
+    bar = GetScalarBar(color_table(options, scene.limits), view)
+    bar.Title = f"{plain_name(options.array)} ({scene.array['unit']})"
     bar.ComponentTitle = ""
     bar.Orientation = "Horizontal"
     bar.WindowLocation = "Any Location"
@@ -95,7 +139,7 @@ def show_particles(source, view, options, array, limits):
     bar.TitleFontSize, bar.LabelFontSize = letters(options, 0.022), letters(options, 0.018)
     bar.AutomaticLabelFormat = 0
     bar.LabelFormat = bar.RangeLabelFormat = "%.3g"
-    shown.SetScalarBarVisibility(view, True)
+    GetDisplayProperties(source, view).SetScalarBarVisibility(view, True)
 
 
 def plain_name(array):
@@ -116,8 +160,12 @@ def show_plain(source, view, color, opacity=1.0):
     return shown
 
 
-def show_surface(source, view):
-    shown = show_plain(source, view, SKIN, 0.2)
+def show_surface(source, view, options, scene):
+    """In the colors of the body, where the surface has the array. Bones shine through it."""
+    shown = show_plain(source, view, SKIN, SKIN_OPACITY if scene.skin_has_array else BARE_SKIN_OPACITY)
+    if scene.skin_has_array:
+        shown.Ambient, shown.Diffuse = LIGHT
+        color_by_array(shown, options, scene)
     shown.SelectNormalArray = "normal"
     shown.Specular = 0.3
 
@@ -259,16 +307,28 @@ def need_screen():
     stop(f"there is no screen; draw without one by: xvfb-run -a pvbatch {SCRIPT} --picture FILE.png")
 
 
+def show_body(sources, view, options, scene):
+    """By its cells, if the run has them, and the particles hidden; or else by these."""
+    has_cells = "volume" in sources
+    shown = cut_particles(sources["particles"], options, scene,
+                          "cut-away particles" if has_cells else "cut-away body")
+    show_particles(shown, view, options, scene)
+    if has_cells:
+        Hide(shown, view)
+        shown = cut_cells(sources["volume"], options, scene)
+        show_cells(shown, view, options, scene)
+    show_color_bar(shown, view, options, scene)
+
+
 def show_all(sources, options, scene):
     """`sources` by the names of their series. Left: the body cut open; right: the bones inside the
     translucent skin. Returns the layout and its left view."""
     need_screen()
     paraview.simple._DisableFirstRenderCameraReset()  # it would undo look_at()
     layout, left, right = two_views()
-    show_particles(cut_body(sources["particles"], options, scene), left, options, scene.array,
-                   scene.limits)
+    show_body(sources, left, options, scene)
     edges = feature_edges(sources["surface"])
-    show_surface(sources["surface"], right)
+    show_surface(sources["surface"], right, options, scene)
     radius = 0.009 * scene.size
     parts = bone_parts(sources["bones"], radius)
     for view, opacity in ((left, 0.35), (right, 0.8)):

@@ -13,7 +13,7 @@ def arguments(description, *more):
     parser = argparse.ArgumentParser(prog=SCRIPT, description=description)
     for words, how in more:
         parser.add_argument(*words, **how)
-    parser.add_argument("--array", help="array that colors the particles; by default strain_eq, or displacement "
+    parser.add_argument("--array", help="array that colors body and skin; by default strain_eq, or displacement "
                         "without it")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="values of the lowest and highest color; by default the range in the run")

@@ -90,6 +90,7 @@ class Scene:
         self.corners = corners_of(bounds)  # of the boxes around the body at all times
         self.middle, self.size = middle_and_size(self.corners)
         self.array = {}         # attributes of the array shown
+        self.skin_has_array = False
         self.limits = (0, 1)    # its lowest and highest value
         self.strongest = 0      # the largest of the forces shown, N
         self.hardest = 0        # the largest force of a support or a load, N
@@ -105,6 +106,13 @@ def array_or_stop(path, name):
         known = known[:known.index("Points")] if "Points" in known else known
         stop(f"the particles have no array '{name}'; they have {', '.join(known)}")
     return array
+
+
+def keep_what_has_the_array(scene, sources, name, first):
+    """Finds whether the skin has it, and leaves out cells that lack it. `first`: the first frame of a series."""
+    scene.skin_has_array = described_array(first("surface"), name) is not None
+    if "volume" in sources and not all(described_array(first("volume"), needed) for needed in (name, "displacement")):
+        Delete(sources.pop("volume"))
 
 
 def default_array(path):

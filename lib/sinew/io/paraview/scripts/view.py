@@ -6,9 +6,10 @@
     pvbatch view.py --picture out.png --time 1   of that moment (s)
     pvbatch view.py --help                       all options
 
-Left the body, cut open: particles as spheres of their true size, colored by one array. Right the
-bones with their x, y, z axes in red, green, blue inside the translucent surface. In the window,
-options stand in the variable SINEW_VIEW: SINEW_VIEW="--array velocity --forces" paraview view.py
+Left the body, cut open and colored by one array: its cells, if the run has the series volume, or
+particles as spheres of their true size. Right the bones with their x, y, z axes in red, green, blue
+inside the translucent surface, in the same colors where it has the array. In the window, options
+stand in the variable SINEW_VIEW: SINEW_VIEW="--array velocity --forces" paraview view.py
 """
 import xml.etree.ElementTree as ET
 
@@ -27,7 +28,7 @@ def frame_files(folder, series):
 
 def open_series(folder):
     names = ["particles", "surface", "bones", "frames"]
-    for name in ("obstacles", "supports"):
+    for name in ("volume", "obstacles", "supports"):
         if os.path.exists(os.path.join(folder, name + ".pvd")):
             names.append(name)
     return {name: PVDReader(registrationName=name, FileName=os.path.join(folder, name + ".pvd"))
@@ -92,10 +93,11 @@ def time_note(source):
 
 
 def scene_of(folder, frames, sources, options):
-    """The scene of a run, and the time at which the array is largest."""
+    """The scene of a run, and the time at which the array is largest. Drops sources that are not shown."""
     scene = Scene(folder)
     options.array = options.array or default_array(frames[0][1])
     scene.array = array_or_stop(frames[0][1], options.array)
+    keep_what_has_the_array(scene, sources, options.array, lambda series: frame_files(folder, series)[0][1])
     ranges = color_ranges(frames, options.array)
     scene.limits = options.range or color_limits(ranges)
     scene.strongest = limits_of(ranges_over_time(frames, options.forces or "force_pair"))[1]
