@@ -119,6 +119,7 @@ nlohmann::json json_in(const std::string& page, const std::string& id) {
 
 TEST(Report, HandsEveryPlannedChartAndItsCurvesToTheScript) {
   ReportInput input = some_report();
+  input.frames.back().bone_angle = 30;
   input.curves = {{"Law", "", "x", "y", {{"pair", {0, 1}, {3, -1}}}}};
   const std::string page = report_html(input);
   const auto data = json_in(page, "data");
@@ -142,7 +143,8 @@ TEST(Report, HandsEveryPlannedChartAndItsCurvesToTheScript) {
 
 /// The chart of that title.
 nlohmann::json chart_in(const std::string& page, const std::string& title) {
-  for (const auto& chart : json_in(page, "data")["charts"])
+  const nlohmann::json data = json_in(page, "data");
+  for (const auto& chart : data["charts"])
     if (chart["title"] == title) return chart;
   return nullptr;
 }

@@ -77,7 +77,7 @@ std::vector<ChartPlan> plans_of_deformation() {
        "",
        {{"J_min", "smallest J"}},
        Shown::as_is,
-       0.1,
+       1,
        {0, 1}},
       {"Sections across the bones",
        "Largest loss of area (candy wrapper) and largest gain (bulge)",
