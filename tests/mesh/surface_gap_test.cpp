@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/mesh/surface_distance.h>
+#include <sinew/mesh/surface_gap.h>
 
 #include <gtest/gtest.h>
 

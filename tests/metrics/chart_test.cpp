@@ -68,6 +68,27 @@ TEST(Charts, ShowMetricsOfTheTableAtMostSixAndEachPlanSome) {
   }
 }
 
+TEST(Charts, TellWhatHappenedInItsOrderAndTriflesLast) {
+  const auto plans = chart_plans();
+  EXPECT_TRUE(std::is_sorted(
+      plans.begin(), plans.end(),
+      [](const ChartPlan& one, const ChartPlan& other) { return one.topic < other.topic; }));
+  EXPECT_EQ(plans.front().topic, Topic::motion);
+  EXPECT_EQ(plans.back().topic, Topic::numerics);
+  const auto of = [](const char* title, Topic topic, double change) {
+    Chart chart{title, "", "m", {0}, 1, Drawn::always, {{"line", {0, change}}}};
+    chart.topic = topic;
+    return chart;
+  };
+  std::vector<Chart> charts{of("d", Topic::numerics, 1), of("e", Topic::motion, 0.01),
+                            of("b", Topic::forces, 1), of("a", Topic::deformation, 1),
+                            of("c", Topic::forces, 1)};
+  put_in_order(charts);
+  std::string order;
+  for (const Chart& chart : charts) order += chart.title;
+  EXPECT_EQ(order, "abcde");
+}
+
 TEST(Charts, ShowRadiiFractionsAndChangesAsTheySay) {
   std::vector<FrameMetrics> frames(2);
   for (FrameMetrics& frame : frames)
@@ -140,6 +161,15 @@ TEST(PageJson, TellsAChartWithItsGapsUnitAndBaselines) {
             Json::parse("[[0, 1], [0.5, null], [1, 0.3333333], [1.5, null]]"));
 }
 
+TEST(PageJson, TakesAChartsOwnTimes) {
+  PageData data;
+  data.times = {0, 1};
+  data.charts = {of_lines({{"name", {5, 6, 7}}})};
+  data.charts[0].times = {0, 0.5, 1};
+  const Json chart = Json::parse(page_json(data))["charts"].at(0);
+  EXPECT_EQ(chart["lines"][0]["points"], Json::parse("[[0, 5], [0.5, 6], [1, 7]]"));
+}
+
 TEST(PageJson, ThinsEveryLineAndTheAngles) {
   PageData data;
   for (int i = 0; i < 100'000; ++i) data.times.push_back(0.1 * i);
@@ -157,6 +187,8 @@ TEST(PageJson, HasAnglesOnlyWhereThereAreBones) {
   data.angles = {0, 45, 90};
   EXPECT_EQ(Json::parse(page_json(data))["angles"], Json::parse("[[0, 0], [1, 45], [2, 90]]"));
   data.angles = {nan, nan, nan};
+  EXPECT_EQ(Json::parse(page_json(data))["angles"], Json::array());
+  data.angles = {0, 0.005, 0.1};  // no bend
   EXPECT_EQ(Json::parse(page_json(data))["angles"], Json::array());
 }
 

@@ -119,6 +119,7 @@ nlohmann::json json_in(const std::string& page, const std::string& id) {
 
 TEST(Report, HandsEveryPlannedChartAndItsCurvesToTheScript) {
   ReportInput input = some_report();
+  input.frames.back().bone_angle = 30;
   input.curves = {{"Law", "", "x", "y", {{"pair", {0, 1}, {3, -1}}}}};
   const std::string page = report_html(input);
   const auto data = json_in(page, "data");
@@ -138,6 +139,36 @@ TEST(Report, HandsEveryPlannedChartAndItsCurvesToTheScript) {
   EXPECT_EQ(data["angles"].size(), input.frames.size());
   EXPECT_EQ(data["curves"].size(), 1u);
   EXPECT_TRUE(contains(page, "id=\"charts\"") && contains(page, "id=\"curves\""));
+}
+
+/// The chart of that title.
+nlohmann::json chart_in(const std::string& page, const std::string& title) {
+  const nlohmann::json data = json_in(page, "data");
+  for (const auto& chart : data["charts"])
+    if (chart["title"] == title) return chart;
+  return nullptr;
+}
+
+/// A body of 1 MPa: forces that strain no particle by a thousandth, and a residual of a
+/// thousandth of the energies.
+TEST(Report, FoldsAwayWhatIsATrifleBesideTheMaterial) {
+  ReportInput input = some_report();
+  input.modulus = 1e6;
+  const double force = 0.01 * input.modulus * 4 * r * r;
+  const auto forces = [&](double size) {
+    Chart chart{"Forces", "", "N", {0}, 0, Drawn::always, {{"bone", {0, 0, size, 0, 0}}}};
+    input.charts = {chart};
+    return chart_in(report_html(input), "Forces");
+  };
+  EXPECT_TRUE(forces(0.04 * force)["folded"]);
+  EXPECT_FALSE(forces(0.06 * force)["folded"]);
+  for (std::size_t i = 0; i < input.frames.size(); ++i) {
+    input.frames[i].pair_energy = static_cast<double>(i);
+    input.frames[i].energy_residual = 0.001 * static_cast<double>(i);
+  }
+  EXPECT_TRUE(chart_in(report_html(input), "Balance of energies")["folded"]);
+  input.frames.back().energy_residual = 0.1;
+  EXPECT_FALSE(chart_in(report_html(input), "Balance of energies")["folded"]);
 }
 
 TEST(Report, HasAPlaybackOnlyWhereThereAreFrames) {

@@ -239,6 +239,27 @@ probes:
         for name in "force", "displacement":
             for one, other in zip(self.vector(above, name), self.vector(rows["above"], name)):
                 self.assertLess(abs(one - other), 1e-9 * max(1, abs(other)))
+        self.assert_charts_show(above, middle)
+
+    def assert_charts_show(self, above, middle):
+        """The report has a chart of each quantity of the probes, with its unit and its last size."""
+        sinew("measure", self.out)
+        text = (self.out / "report.html").read_text()
+        data = json.loads(re.search(r'id="data">(.*?)</script>', text, re.DOTALL)[1])
+        charts = {chart["title"]: chart for chart in data["charts"]}
+        stress = [float(middle[f"stress_{k}"]) for k in ("xx", "yy", "zz")]
+        strain = [float(middle[f"strain_{k}"]) for k in ("xx", "yy", "zz")]
+        deviator = lambda tensor: sum((one - sum(tensor) / 3) ** 2 for one in tensor) ** 0.5  # without shear
+        for title, unit, name, size in [
+                ("Displacement of probes", "m", "above", float(above["displacement_z"])),
+                ("Forces on probes", "N", "above", float(above["force_z"])),
+                ("Strain at probes", "", "middle", (2 / 3) ** 0.5 * deviator(strain)),
+                ("Stress at probes", "Pa", "middle", 1.5 ** 0.5 * deviator(stress))]:
+            self.assertEqual(charts[title]["unit"], unit)
+            points = {line["name"]: line["points"] for line in charts[title]["lines"]}[name]
+            self.assertEqual(len(points), 16)
+            self.assertEqual(points[-1][0], 1.5)
+            self.assert_near(points[-1][1], abs(size), 1e-3)
 
     def test_all_arrays_are_those_that_a_body_without_bones_has(self):
         self.run_of(PULL.format(by=0.002), "--set", "solver.duration=0.1", "--set", "output.arrays=all")

@@ -70,6 +70,28 @@ setTimeout(() => visit().catch((error) => { states.error = String(error); }).the
     { id: "states", textContent: JSON.stringify(states) }))), 500);
 </script>
 """
+# What of a page lies beyond its right edge, and how its cards and charts lie. A browser's window is at least 500
+# pixels wide: a narrower page is in a frame, and tells the page around it.
+NARROW = """
+<script>
+setTimeout(() => {
+  const edge = document.documentElement.clientWidth, boxes = (query) => [...document.querySelectorAll(query)]
+    .map((one) => one.getBoundingClientRect()).filter((box) => box.width > 0);
+  const beyond = [...document.body.querySelectorAll("*")].filter((one) => !one.closest("table, pre, script") &&
+    one.getBoundingClientRect().right > edge + 1).map((one) => `${one.tagName}.${one.className}#${one.id}`);
+  parent.postMessage({ edge, beyond, overflow: document.documentElement.scrollWidth - edge,
+    cards: [...document.querySelectorAll(".cards")].map((one) => [...one.children]
+      .map((card) => card.getBoundingClientRect().left)), plots: boxes("#charts .plot").map((box) => [box.width, box.height]),
+    stages: boxes(".stage").map((box) => [box.width, box.height]),
+    tables: [...document.querySelectorAll(".scrolls")].map((one) => [one.clientWidth, one.scrollWidth]) }, "*");
+}, 1500);
+</script>
+"""
+FRAME = """<!DOCTYPE html><body style="margin: 0"><iframe src="{source}" width="{width}" height="900" style="border: 0"></iframe>
+<script>
+addEventListener("message", ({{ data }}) => document.body.append(Object.assign(document.createElement("pre"),
+  {{ id: "states", textContent: JSON.stringify(data) }})));
+</script>"""
 # A browser that only dumps its page paints too seldom: the page's frames come by the clock.
 FRAMES = "<script>window.requestAnimationFrame = (job) => setTimeout(() => job(performance.now()), 16);</script>"
 PLAYBACK = re.compile(r'(?<=id="playback">).*?(?=</script>)', re.DOTALL)
@@ -106,6 +128,22 @@ def visit(*options, change=None):
     found = re.search(r'<pre id="states">(.*?)</pre>', done.stdout, re.DOTALL)
     assert found, done.stderr[-3000:]
     return json.loads(html.unescape(found.group(1))), console_errors(done.stderr)
+
+
+def framed(width):
+    """How the page lies in a frame of that width, in pixels."""
+    inner, outer = RUN / "report_inner.html", RUN / "report_framed.html"
+    inner.write_text((RUN / "report.html").read_text().replace("<head>", "<head>" + FRAMES)
+                     .replace("</body>", NARROW + "</body>"))
+    outer.write_text(FRAME.format(source=inner.name, width=width))
+    try:
+        done = browse(outer, "--dump-dom", *SOFTWARE_GL)
+    finally:
+        inner.unlink()
+        outer.unlink()
+    found = re.search(r'<pre id="states">(.*?)</pre>', done.stdout, re.DOTALL)
+    assert found, done.stderr[-3000:]
+    return json.loads(html.unescape(found.group(1)))
 
 
 class Report(unittest.TestCase):
@@ -245,6 +283,35 @@ class Report(unittest.TestCase):
     def test_a_narrow_screen_needs_no_sideways_scrolling(self):
         states, _ = visit(*SOFTWARE_GL, "--window-size=500,900")
         self.assertLessEqual(states["overflow"], 0)
+
+    def test_on_a_phone_nothing_overflows_and_cards_form_one_column(self):
+        page = framed(420)
+        self.assertEqual(page["edge"], 420)
+        self.assertLessEqual(page["overflow"], 0)
+        self.assertEqual(page["beyond"], [])
+        for lefts in page["cards"]:
+            self.assertEqual(len(set(lefts)), 1)
+        for width, height in page["plots"] + page["stages"]:
+            self.assertGreater(width, 340)
+            self.assertGreater(height, 200)
+        self.assertTrue(any(inner > outer for outer, inner in page["tables"]))  # they scroll within themselves
+
+    def test_on_a_desk_no_row_of_cards_or_charts_is_half_empty(self):
+        page = framed(1400)
+        self.assertEqual(page["beyond"], [])
+        for lefts in page["cards"]:
+            self.assertEqual(len(set(lefts)), len(lefts))  # one row
+        widths = [width for width, _ in page["plots"]]
+        self.assertTrue(all(abs(width - widths[0]) < 2 for width in widths[:-1]), widths)
+        self.assertEqual(widths[-1] > 1.5 * widths[0], len(widths) % 2 == 1 and len(widths) > 1, widths)
+
+    def test_the_scale_of_colors_says_which_percentiles_it_ends_at(self):
+        self.assertRegex(self.states["start"]["scale"], r"\(0\.1st to 99\.9th percentile\)")
+
+    def test_every_metric_is_in_a_table_that_is_open_and_can_be_folded(self):
+        text = (RUN / "report.html").read_text()
+        part = re.search(r'<details class="part" open>(.*?)</details>', text, re.DOTALL)[1]
+        self.assertGreater(part.count("<tr>"), 30)
 
 
 def take_pictures():

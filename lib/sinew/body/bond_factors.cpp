@@ -34,6 +34,7 @@ using Tensor = Eigen::Matrix<double, 15, 1>;
 using Tensors = Eigen::Matrix<double, 15, Eigen::Dynamic>;
 
 Tensor fourth_power(const Vec3& n) {
+  static constexpr std::array<double, 5> factorial = {1, 1, 2, 6, 24};
   Tensor components;
   int at = 0;
   for (int i = 0; i < 3; ++i)
@@ -43,7 +44,7 @@ Tensor fourth_power(const Vec3& n) {
           std::array<int, 3> times{};
           for (const int axis : {i, j, k, l}) ++times[axis];
           double orders = 24;
-          for (const int count : times) orders /= std::tgamma(count + 1.0);
+          for (const int count : times) orders /= factorial[count];
           components[at++] = std::sqrt(orders) * n[i] * n[j] * n[k] * n[l];
         }
   return components;

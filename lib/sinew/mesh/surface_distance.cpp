@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/mesh/surface_distance.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include <sinew/core/error.h>
-#include <sinew/core/parallel.h>
 #include <sinew/mesh/face_queries.h>
 #include <sinew/mesh/surface.h>
 #include <sinew/mesh/winding.h>
@@ -57,61 +55,6 @@ NearestPlace SurfaceDistance::from(const Vec3& point) const {
   const int inside = tree_->winding.around(point).value_or(0);
   if (inside > 0) return {-distance, -offset / distance};
   return {distance, offset / distance};
-}
-
-namespace {
-
-constexpr std::size_t piece = 256;
-
-// Exact for quadratics over a triangle.
-constexpr double corner_weight = 1.0 / 12, center_weight = 3.0 / 4;
-
-/// place(i) for all i < count, and the distance of each from a surface.
-template <class Place>
-std::vector<double> distances(std::size_t count, const NearestFace& to, const Place& place) {
-  std::vector<double> found(count);
-  parallel_for(count, piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 at = place(i);
-      found[i] = (to.to(at).place - at).norm();
-    }
-  });
-  return found;
-}
-
-struct OneWay {
-  double farthest = 0, integral = 0, area = 0;
-};
-
-OneWay one_way(const Triangles& from, const NearestFace& to) {
-  const auto corner = [&](std::size_t i) -> Vec3 { return from.points[i]; };
-  const auto center = [&](std::size_t f) -> Vec3 {
-    const auto& [a, b, c] = from.faces[f];
-    return (from.points[a] + from.points[b] + from.points[c]) / 3;
-  };
-  const auto at_corners = distances(from.points.size(), to, corner);
-  const auto at_centers = distances(from.faces.size(), to, center);
-  OneWay all;
-  for (std::size_t f = 0; f < from.faces.size(); ++f) {  // in order, for the same bits
-    const double area = face_area(from, from.faces[f]);
-    double sum = center_weight * at_centers[f];
-    all.farthest = std::max(all.farthest, at_centers[f]);
-    for (const int i : from.faces[f]) {
-      sum += corner_weight * at_corners[i];
-      all.farthest = std::max(all.farthest, at_corners[i]);
-    }
-    all.integral += area * sum;
-    all.area += area;
-  }
-  return all;
-}
-
-}  // namespace
-
-SurfaceGap surface_gap(const Triangles& one, const Triangles& other) {
-  const OneWay there = one_way(one, NearestFace(other)), back = one_way(other, NearestFace(one));
-  return {std::max(there.farthest, back.farthest),
-          (there.integral + back.integral) / (there.area + back.area)};
 }
 
 }  // namespace sinew

@@ -33,9 +33,9 @@ void check(const RestBody& rest, const FrameState& state) {
           "has the broken bonds of " + std::to_string(state.broken_bonds.size()) +
               " particles and the body has " + std::to_string(n));
   for (std::size_t i = 0; i < state.broken_bonds.size(); ++i)
-    require(0 <= state.broken_bonds[i] && std::size_t(state.broken_bonds[i]) <= rest.bonds_of(i),
-            "has " + std::to_string(state.broken_bonds[i]) + " broken bonds at particle " +
-                std::to_string(i) + " of " + std::to_string(rest.bonds_of(i)));
+    if (state.broken_bonds[i] < 0 || std::size_t(state.broken_bonds[i]) > rest.bonds_of(i))
+      require(false, "has " + std::to_string(state.broken_bonds[i]) + " broken bonds at particle " +
+                         std::to_string(i) + " of " + std::to_string(rest.bonds_of(i)));
   bool finite = std::isfinite(state.time) && all_finite(state.positions) &&
                 all_finite(state.velocities) && all_finite(state.surface_points);
   for (const RigidFrame& bone : state.bones)

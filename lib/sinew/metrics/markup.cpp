@@ -87,7 +87,9 @@ std::string table(const std::vector<std::string_view>& columns, const std::strin
   std::string heads;
   for (const std::string_view column : columns)
     heads += element("th", escaped(column), heads.empty() ? "" : "class=\"number\"");
-  return element("table", element("thead", element("tr", heads)) + element("tbody", rows));
+  return element("div",
+                 element("table", element("thead", element("tr", heads)) + element("tbody", rows)),
+                 "class=\"scrolls\" tabindex=\"0\"");
 }
 
 std::string readable(double value) {

@@ -25,10 +25,6 @@ struct BondState {
   double force;   ///< N, positive repels; 0 once broken
 };
 
-double factor_of(const LocalStiffness& local, std::size_t i, std::uint32_t j) {
-  return local.factor ? local.factor(static_cast<std::uint32_t>(i), j) : 1;
-}
-
 double force_of(const ForcesOfPairs& law, bool nearest, double d, double rest) {
   if (!nearest) return law.second(d, rest);
   if (law.bond) return law.bond(d, rest);
@@ -40,15 +36,17 @@ template <class Visit>
 void for_each_bond(const RestBody& rest, const FrameState& state, std::size_t i,
                    const Visit& visit) {
   const Points& now = state.positions;
-  const LocalStiffness& local = rest.stiffness().local;
+  const BondStiffness& stiffness = rest.stiffness();
+  const std::vector<double>& lengths = state.bond_rest.empty() ? stiffness.length : state.bond_rest;
   const auto among = [&](const NeighborLists& lists, std::size_t before, bool nearest) {
     if (lists.size() == 0) return;
     for (std::uint32_t e = lists.first[i]; e < lists.first[i + 1]; ++e) {
       const std::uint32_t j = lists.neighbor[e];
-      BondState bond{j, now[i] - now[j], 0, 0, true, nearest, factor_of(local, i, j), 0};
+      BondState bond{j, now[i] - now[j], 0, 0, true, nearest, 1, 0};
+      if (!stiffness.factor.empty()) bond.factor = stiffness.factor[before + e];
       bond.length = bond.apart.norm();
-      bond.rest = state.bond_rest.empty() ? (rest.shape.points[i] - rest.shape.points[j]).norm()
-                                          : state.bond_rest[before + e];
+      bond.rest = lengths.empty() ? (rest.shape.points[i] - rest.shape.points[j]).norm()
+                                  : lengths[before + e];
       bond.whole = bond.rest > 0 && bond.length < rest.law.reach;
       if (bond.whole)
         bond.force = bond.factor * force_of(rest.law, nearest, bond.length, bond.rest);
@@ -74,7 +72,7 @@ struct KeptVolume {
 };
 
 KeptVolume kept_volume(const RestBody& rest, const FrameState& state, std::size_t i, bool severed) {
-  const std::vector<double>& weight = rest.stiffness().local.volume_weight;
+  const std::vector<double>& weight = rest.stiffness().volume_weight;
   if (weight.empty() || weight[i] == 0 || severed) return {};
   const auto& local = rest.law.volume_stiffness_of;
   return {(local.empty() ? rest.law.volume_stiffness : local[i]) * weight[i],
@@ -122,8 +120,7 @@ void for_each_surrounded(const RestBody& rest, const FrameState& state, const Fo
   parallel_for(rest.particles(), particles_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
-      find_neighbors(state.positions, grid, rest.interaction_range, i, neighbors);
-      found(i, std::span<const Neighbor>(neighbors));
+      found(i, find_neighbors(state.positions, grid, rest.interaction_range, i, neighbors));
     }
   });
 }
@@ -146,14 +143,16 @@ double energy_density(const RestBody& rest, const FrameState& state,
 
 }  // namespace
 
-void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                    std::vector<Neighbor>& found) {
-  found.clear();
+std::span<const Neighbor> find_neighbors(const Points& now, const CellGrid& grid, double range,
+                                         std::size_t i, std::vector<Neighbor>& found) {
+  std::size_t count = 0;
   grid.for_each_near(now[i], [&](std::uint32_t j) {
-    const Vec3 apart = now[i] - now[j];
-    const double squared = apart.squaredNorm();
-    if (j != i && squared < range * range) found.push_back({j, apart, squared});
+    if (count == found.size()) found.resize(2 * count + 64);
+    const double squared = (now[i] - now[j]).squaredNorm();
+    found[count] = {j, squared};  // without a branch, which would be guessed wrong often
+    count += static_cast<std::size_t>(squared < range * range) & static_cast<std::size_t>(j != i);
   });
+  return {found.data(), count};
 }
 
 bool knows_forces(const RestBody& rest, const FrameState& state) {
@@ -170,7 +169,7 @@ Mat3 kirchhoff_stress(const RestBody& rest, const FrameState& state,
       [&](const BondState& bond) { sum += virial(bond.force, bond.apart, bond.length); },
       [&](const Neighbor& other) {
         const double d = std::sqrt(other.squared);
-        sum += virial(rest.law.force(d), other.apart, d);
+        sum += virial(rest.law.force(d), state.positions[i] - state.positions[other.index], d);
       });
   const double share = volume_share(rest, i);
   if (!(share > 0)) return Mat3::Constant(not_measured);
@@ -219,15 +218,6 @@ BondValues bond_values(const RestBody& rest, const FrameState& state) {
       values.broken.push_back(!bond.whole);
     });
   return values;
-}
-
-std::vector<double> first_bond_rest(const RestBody& rest) {
-  std::vector<double> lengths;
-  for (const NeighborLists* lists : {&rest.shape.neighbors, &rest.second})
-    for (std::size_t i = 0; i < lists->size(); ++i)
-      for (const std::uint32_t j : lists->of(i))
-        lengths.push_back((rest.shape.points[i] - rest.shape.points[j]).norm());
-  return lengths;
 }
 
 }  // namespace sinew

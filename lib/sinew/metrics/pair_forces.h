@@ -20,13 +20,13 @@ namespace sinew {
 /// A particle near another one.
 struct Neighbor {
   std::uint32_t index;
-  Vec3 apart;      ///< from it to the other one, m
-  double squared;  ///< of its length, m^2
+  double squared;  ///< distance, m^2
 };
 
-/// Fills `found` with the particles nearer to i than the range (m), which is that of the grid.
-void find_neighbors(const Points& now, const CellGrid& grid, double range, std::size_t i,
-                    std::vector<Neighbor>& found);
+/// The particles nearer to i than the range (m), which is that of the grid; in `found`, which grows
+/// where it is too short.
+std::span<const Neighbor> find_neighbors(const Points& now, const CellGrid& grid, double range,
+                                         std::size_t i, std::vector<Neighbor>& found);
 
 /// Whether the body's law and the state determine all forces between particles.
 bool knows_forces(const RestBody& rest, const FrameState& state);
@@ -65,8 +65,5 @@ struct BondValues {
   std::vector<std::int32_t> broken;  ///< 0 or 1
 };
 BondValues bond_values(const RestBody& rest, const FrameState& state);
-
-/// The rest lengths of all bonds before any has changed, m: FrameState::bond_rest.
-std::vector<double> first_bond_rest(const RestBody& rest);
 
 }  // namespace sinew

@@ -110,11 +110,11 @@ void add_surroundings(ParticleValues& out, const RestBody& rest, const FrameStat
   parallel_for(now.size(), piece, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
-      find_neighbors(now, grid, range, i, neighbors);
-      count_neighbors(out, rest, now, neighbors, i);
+      const auto near = find_neighbors(now, grid, range, i, neighbors);
+      count_neighbors(out, rest, now, near, i);
       if (finds_stress)
         out.von_mises[i] =
-            von_mises(cauchy_stress(kirchhoff_stress(rest, state, neighbors, i), out.J[i]));
+            von_mises(cauchy_stress(kirchhoff_stress(rest, state, near, i), out.J[i]));
     }
   });
 }

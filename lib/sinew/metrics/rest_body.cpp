@@ -6,11 +6,13 @@
 #include <mutex>
 
 #include <sinew/core/error.h>
+#include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 
 namespace sinew {
 namespace {
 
+constexpr std::size_t particles_per_task = 1024;
 const char* const cure = "measure a run that sinew has written";
 
 void require(bool holds, const std::string& what) {
@@ -115,19 +117,36 @@ bool all_finite(const Points& points) {
 
 namespace {
 
+/// value(i, j) of each bond, by entry of the neighbors, then of second ones.
+template <class Value>
+std::vector<double> by_bond(const RestBody& body, const Value& value) {
+  std::vector<double> values(body.shape.neighbors.neighbor.size() + body.second.neighbor.size());
+  double* first = values.data();
+  for (const NeighborLists* lists : {&body.shape.neighbors, &body.second}) {
+    parallel_for(lists->size(), particles_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::uint32_t e = lists->first[i]; e < lists->first[i + 1]; ++e)
+          first[e] = value(static_cast<std::uint32_t>(i), lists->neighbor[e]);
+    });
+    first += lists->neighbor.size();
+  }
+  return values;
+}
+
 /// Sums k l^2 over a particle's bonds, over that of one inside, as if all were of one material.
-std::vector<double> volume_shares_by_stiffness(const RestBody& body, const LocalStiffness& local) {
+std::vector<double> volume_shares_by_stiffness(const RestBody& body, const LocalStiffness& local,
+                                               const std::vector<double>& factors) {
   const ForcesOfPairs& law = body.law;
-  if (!local.factor || !law.second) return {};
+  if (factors.empty() || !law.second) return {};
   const double k = law.bond(0, 1), second = law.second(0, 1);  // of springs with f = k (l - d)
   const double inside =
       12 * k * 4 * body.radius * body.radius + 6 * second * 8 * body.radius * body.radius;
   std::vector<double> volume_shares(body.particles(), 0);
+  const double* factor = factors.data();
   const auto add = [&](const NeighborLists& lists, double stiffness) {
     for (std::size_t i = 0; i < lists.size(); ++i)
       for (const std::uint32_t j : lists.of(i))
-        volume_shares[i] += local.factor(static_cast<std::uint32_t>(i), j) /
-                            local.modulus_between(i, j) * stiffness / inside *
+        volume_shares[i] += *factor++ / local.modulus_between(i, j) * stiffness / inside *
                             (body.shape.points[i] - body.shape.points[j]).squaredNorm();
   };
   add(body.shape.neighbors, k);
@@ -137,6 +156,12 @@ std::vector<double> volume_shares_by_stiffness(const RestBody& body, const Local
 
 }  // namespace
 
+std::vector<double> first_bond_rest(const RestBody& rest) {
+  return by_bond(rest, [&](std::uint32_t i, std::uint32_t j) {
+    return (rest.shape.points[i] - rest.shape.points[j]).norm();
+  });
+}
+
 struct RestBody::Found {
   std::once_flag once;
   BondStiffness stiffness;
@@ -145,12 +170,16 @@ struct RestBody::Found {
 const BondStiffness& RestBody::stiffness() const {
   std::call_once(stiffness_->once, [this] {
     BondStiffness& found = stiffness_->stiffness;
-    if (law.local) found.local = law.local();
+    LocalStiffness local;
+    if (law.local) local = law.local();
+    found.volume_weight = std::move(local.volume_weight);
     const bool keeps_volume = law.volume_stiffness > 0 || !law.volume_stiffness_of.empty();
-    require(!keeps_volume || found.local.volume_weight.size() == particles(),
+    require(!keeps_volume || found.volume_weight.size() == particles(),
             "there are " + std::to_string(particles()) + " particles that keep their volumes, " +
-                "but weights for " + std::to_string(found.local.volume_weight.size()));
-    found.volume_share = volume_shares_by_stiffness(*this, found.local);
+                "but weights for " + std::to_string(found.volume_weight.size()));
+    if (local.factor) found.factor = by_bond(*this, local.factor);
+    if (law.bond && !law.bonds_change) found.length = first_bond_rest(*this);
+    found.volume_share = volume_shares_by_stiffness(*this, local, found.factor);
   });
   return stiffness_->stiffness;
 }

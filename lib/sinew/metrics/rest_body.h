@@ -94,7 +94,10 @@ struct Bound {
 
 /// What stresses need beside the law: found where they are asked for first.
 struct BondStiffness {
-  LocalStiffness local;
+  // Values of each bond, by entry of RestBody::shape.neighbors, then of second.
+  std::vector<double> factor;         ///< on its force; empty: 1
+  std::vector<double> length;         ///< at rest, m; empty: there are none, or they change
+  std::vector<double> volume_weight;  ///< as LocalStiffness has it
   /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
   std::vector<double> volume_share;
 };
@@ -133,6 +136,9 @@ struct RestBody {
   std::shared_ptr<Found> stiffness_;
   friend RestBody rest_body(RestInput input);
 };
+
+/// The rest lengths of all bonds before any has changed, m: FrameState::bond_rest. In parallel.
+std::vector<double> first_bond_rest(const RestBody& rest);
 
 /// Checks the input and computes the rest. Throws bad input for sizes that do not agree, indices
 /// out of range, numbers that are not finite, or a surface without area. A joint zone reaches half

@@ -58,10 +58,9 @@ class PairTest {
  private:
   /// Whether all of b but the shared corner is on one side of a's plane: the usual case.
   bool aside(const Face& a, const Face& b) const {
-    const auto side = [&](int i) {
-      return CGAL::orientation(point(a[0]), point(a[1]), point(a[2]), point(i));
-    };
-    return side(b[1]) != CGAL::COPLANAR && side(b[1]) == side(b[2]);
+    const Point p = point(a[0]), q = point(a[1]), r = point(a[2]);
+    const auto side = CGAL::orientation(p, q, r, point(b[1]));
+    return side != CGAL::COPLANAR && side == CGAL::orientation(p, q, r, point(b[2]));
   }
 
   /// Two faces at one edge overlap only where one is folded flat onto the other.
@@ -126,6 +125,10 @@ std::vector<Part> parts_of(const Triangles& surface, const PairTest& test) {
   return parts;
 }
 
+std::size_t max_tests(const Triangles& surface) {
+  return std::max(min_tests, tests_per_face * surface.faces.size());
+}
+
 struct Enough {};
 
 /// Receives pairs of boxes and keeps those whose parts intersect.
@@ -135,7 +138,7 @@ class Search {
       : test_(test),
         parts_(parts_of(surface, test)),
         max_pairs_(most),
-        max_tests_(std::max(min_tests, tests_per_face * surface.faces.size())) {
+        max_tests_(max_tests(surface)) {
     found_.faces.resize(surface.faces.size());
   }
 
@@ -175,6 +178,29 @@ class Search {
 SelfIntersections self_intersections(const Triangles& surface, std::size_t most) {
   const PairTest test(surface.points);
   return Search(surface, test, most).run();
+}
+
+SelfIntersections self_intersections(const FaceTree& tree) {
+  const Triangles& surface = tree.surface();
+  const PairTest test(surface.points);
+  const auto flat = [&](const Face& face) { return test.flat(face); };
+  const std::size_t tests = max_tests(surface);
+  const auto pairs = tree.meeting_boxes(tests);
+  // Where faces are cut, or not all pairs are tested, these depend on the order of the search.
+  if (pairs.size() > tests || tree.faces().size() < surface.faces.size() ||
+      std::any_of(surface.faces.begin(), surface.faces.end(), flat))
+    return self_intersections(surface);
+  SelfIntersections found;
+  found.faces.resize(surface.faces.size());
+  for (auto [a, b] : pairs) {
+    if (b < a) std::swap(a, b);
+    if (!test.meet(surface.faces[a], surface.faces[b])) continue;
+    const std::array<int, 2> pair = {static_cast<int>(a), static_cast<int>(b)};
+    found.first = found.pairs == 0 ? pair : std::min(found.first, pair);
+    found.faces[a] = found.faces[b] = true;
+    if (++found.pairs == max_pairs) return self_intersections(surface);
+  }
+  return found;
 }
 
 }  // namespace sinew

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <sinew/core/triangles.h>
+#include <sinew/mesh/face_tree.h>
 
 namespace sinew {
 
@@ -20,10 +21,15 @@ struct SelfIntersections {
   std::vector<bool> faces;        ///< per face, whether it is in a pair found
 };
 
+inline constexpr std::size_t max_pairs = 100000;
+
 /// Searches until `most` pairs are found or 2 10^6 pairs of faces whose boxes meet are tested (20
 /// per face, if that is more): long thin faces may have as many as the square of their number.
 /// Faces without area are left out. Where one lies along a side of another face, with a point
 /// between the side's ends, the other counts as two faces that share that point.
-SelfIntersections self_intersections(const Triangles& surface, std::size_t most = 100000);
+SelfIntersections self_intersections(const Triangles& surface, std::size_t most = max_pairs);
+
+/// The same of a surface whose boxes are there already.
+SelfIntersections self_intersections(const FaceTree& tree);
 
 }  // namespace sinew

@@ -2,6 +2,7 @@
 #include <sinew/run/machine_columns.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -141,16 +142,44 @@ std::vector<MachineColumn> machine_columns(const std::filesystem::path& folder) 
 
 namespace {
 
-/// Lengths of the vectors whose components are columns "name: WHAT_x" and so on, by name.
-std::vector<Line> sizes_of(const std::vector<MachineColumn>& columns, const std::string& what) {
+/// A quantity whose components are columns beside each other, and its size.
+struct Quantity {
+  const char* first;  ///< of the components: "force_x"
+  const char *title, *note, *unit;
+  std::size_t components;
+  double (*size)(const double*);
+  Topic topic = Topic::forces;
+};
+
+double length(const double* vector) { return std::hypot(vector[0], vector[1], vector[2]); }
+
+/// sqrt(dev T : dev T) of a tensor XX YY ZZ XY YZ XZ.
+double deviator_size(const double* tensor) {
+  const double mean = (tensor[0] + tensor[1] + tensor[2]) / 3;
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    sum += (tensor[k] - mean) * (tensor[k] - mean) + 2 * tensor[3 + k] * tensor[3 + k];
+  return std::sqrt(sum);
+}
+
+double equivalent_strain(const double* tensor) {
+  return std::sqrt(2.0 / 3) * deviator_size(tensor);
+}
+double equivalent_stress(const double* tensor) { return std::sqrt(1.5) * deviator_size(tensor); }
+
+/// The size of the quantity, a line for each name in the first column of the table.
+std::vector<Line> sizes_of(const std::vector<MachineColumn>& columns, const Quantity& of) {
+  const std::string ending = std::string(": ") + of.first;
   std::vector<Line> lines;
-  for (std::size_t c = 0; c + 2 < columns.size(); ++c) {
+  for (std::size_t c = 0; c + of.components <= columns.size(); ++c) {
     const std::string& name = columns[c].name;
-    if (!name.ends_with(": " + what + "_x")) continue;
-    Line line{name.substr(0, name.size() - what.size() - 4), columns[c].values};
-    for (std::size_t i = 0; i < line.values.size(); ++i)
-      line.values[i] =
-          std::hypot(columns[c].values[i], columns[c + 1].values[i], columns[c + 2].values[i]);
+    if (!name.ends_with(ending)) continue;
+    Line line{name.substr(0, name.size() - ending.size()), {}};
+    std::array<double, 6> value{};
+    for (std::size_t i = 0; i < columns[c].values.size(); ++i) {
+      for (std::size_t k = 0; k < of.components; ++k) value[k] = columns[c + k].values[i];
+      line.values.push_back(of.size(value.data()));
+    }
     lines.push_back(std::move(line));
   }
   return lines;
@@ -176,26 +205,55 @@ std::vector<Line> largest_lines(std::vector<Line> lines) {
   return lines;
 }
 
+struct Table {
+  const char* file;
+  std::vector<Quantity> quantities;
+};
+
+const std::vector<Table>& charted_tables() {
+  constexpr const char* on_body = "Their sizes, on the body";
+  static const std::vector<Table> tables{
+      {"bones.csv",
+       {{"force_x", "Forces of bones", on_body, "N", 3, length},
+        {"moment_x", "Moments of bones", on_body, "N m", 3, length}}},
+      {"supports.csv",
+       {{"force_x", "Forces of supports and loads", on_body, "N", 3, length},
+        {"moment_x", "Moments of supports and loads", on_body, "N m", 3, length}}},
+      {"probes.csv",
+       {{"displacement_x", "Displacement of probes", "Its size, from rest", "m", 3, length,
+         Topic::motion},
+        {"strain_xx", "Strain at probes",
+         "Equivalent of the mean over the particles, sqrt(2/3 dev E : dev E)", "", 6,
+         equivalent_strain, Topic::deformation},
+        {"stress_xx", "Stress at probes", "Von Mises stress of the mean over the particles", "Pa",
+         6, equivalent_stress},
+        {"force_x", "Forces on probes", "Their sizes, of all that acts from outside", "N", 3,
+         length}}}};
+  return tables;
+}
+
 }  // namespace
 
-std::vector<Chart> force_charts(const std::filesystem::path& folder) {
-  struct Table {
-    const char *file, *of;
-  };
+std::vector<Chart> table_charts(const std::filesystem::path& folder) {
+  constexpr double strain_span = 0.01;
   std::vector<Chart> charts;
-  for (const auto& [file, of] :
-       {Table{"bones.csv", "bones"}, {"supports.csv", "supports and loads"}}) {
+  for (const Table& table : charted_tables()) {
     std::vector<MachineColumn> columns = {{"time", "s", {}}};
-    Collector(columns).add(folder / file);
-    for (const auto& [what, unit] : {std::pair("force", "N"), std::pair("moment", "N m")}) {
-      std::vector<Line> lines = largest_lines(sizes_of(columns, what));
+    Collector(columns).add(folder / table.file);
+    for (MachineColumn& column : columns)
+      column.values.resize(columns[0].values.size(), std::nan(""));
+    for (const Quantity& quantity : table.quantities) {
+      std::vector<Line> lines = largest_lines(sizes_of(columns, quantity));
       if (lines.empty()) continue;
-      Chart chart;
-      chart.title = (what == std::string("force") ? "Forces of " : "Moments of ") + std::string(of);
-      chart.note = "Their sizes, on the body";
-      chart.unit = unit;
-      chart.lines = std::move(lines);
-      charts.push_back(std::move(chart));
+      const double span = quantity.size == equivalent_strain ? strain_span : 0;
+      charts.push_back({quantity.title,
+                        quantity.note,
+                        quantity.unit,
+                        {0},
+                        span,
+                        Drawn::always,
+                        std::move(lines),
+                        quantity.topic});
     }
   }
   return charts;

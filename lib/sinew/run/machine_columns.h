@@ -17,9 +17,9 @@ namespace sinew {
 /// naming the file, for a table that is damaged.
 std::vector<MachineColumn> machine_columns(const std::filesystem::path& folder);
 
-/// Sizes of the forces and moments on the body, of the bones, supports and loads that exert the
-/// largest, over the same frames; none where there are only trifles beside rounding. Throws as
-/// above.
-std::vector<Chart> force_charts(const std::filesystem::path& folder);
+/// Sizes of what the tables say over the same frames: forces and moments on the body, of the bones,
+/// supports and loads; displacement, strain, stress and force of probes. Each chart has those with
+/// the largest values; none has only trifles beside rounding. Throws as above.
+std::vector<Chart> table_charts(const std::filesystem::path& folder);
 
 }  // namespace sinew

@@ -7,7 +7,7 @@
 #include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
 #include <sinew/io/series.h>
-#include <sinew/mesh/surface_distance.h>
+#include <sinew/mesh/surface_gap.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/metrics/report/charts.h>
@@ -47,10 +47,10 @@ struct GapMetrics {
   double FrameMetrics::*mean;
 };
 
-void add_gap(FrameMetrics& out, const GapMetrics& to, const Triangles& surface,
+void add_gap(FrameMetrics& out, const GapMetrics& to, const FaceTree& surface,
              const std::optional<Triangles>& other) {
   if (!other) return;
-  const SurfaceGap gap = surface_gap(surface, *other);
+  const SurfaceGap gap = surface_gap(surface, FaceTree(*other));
   out.*to.hausdorff = gap.hausdorff;
   out.*to.mean = gap.mean;
 }
@@ -97,7 +97,7 @@ Triangles read_surface_frame(const std::filesystem::path& file) {
 void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameState& state,
                          const std::optional<SurfaceSeries>& reference) {
   using M = FrameMetrics;
-  const Triangles surface{state.surface_points, run.surface.faces};
+  const FaceTree surface({state.surface_points, run.surface.faces});
   out.self_intersections = static_cast<double>(self_intersections(surface).pairs);
   add_gap(out, {&M::pose_hausdorff, &M::pose_distance_mean}, surface, rigid_pose(run, state));
   const std::filesystem::path& folder = run.folder.path;
@@ -108,7 +108,7 @@ void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameStat
   if (!reference) return;
   const auto other = surface_at(*reference, state.time);
   add_gap(out, {&M::reference_hausdorff, &M::reference_distance_mean}, surface, other);
-  if (other) add_point_distances(out, surface, *other);
+  if (other) add_point_distances(out, surface.surface(), *other);
 }
 
 namespace {

@@ -285,6 +285,7 @@ ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie
   input.title = title_of(run.folder);
   input.version = version();
   input.radius = run.body.particles.radius;
+  input.modulus = run.material.young_modulus();
   try {
     input.facts = facts_of(run.folder, run.body.meta);
     input.subject = subject_of(run.folder, run.settings);
@@ -299,7 +300,7 @@ ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie
   input.playback = std::move(measured.playback);
   input.curves = law_curves(run);
   input.machine = machine_columns(run.folder.path);
-  input.forces = force_charts(run.folder.path);
+  input.charts = table_charts(run.folder.path);
   if (movie == MovieLink::follows || std::filesystem::exists(run.folder.pictures() / "movie.mp4"))
     input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;

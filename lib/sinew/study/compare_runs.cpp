@@ -10,7 +10,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/mesh/surface_distance.h>
+#include <sinew/mesh/surface_gap.h>
 #include <sinew/metrics/files.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/report/comparison_page.h>

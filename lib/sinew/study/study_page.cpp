@@ -150,7 +150,8 @@ Chart chart_of(const ChartPlan& plan, std::string_view metric, const Study& stud
               plan.baselines,
               plan.span,
               plan.drawn,
-              {}};
+              {},
+              plan.topic};
   for (const StudiedRun& run : study.runs)
     chart.lines.push_back(
         {run.name, shown_values(plan, metric, run.frames, study.runs.front().radius)});
@@ -175,7 +176,7 @@ std::vector<Chart> charts_of(const Study& study) {
     for (const auto& [metric, words] : plan.metrics)
       if (drawn.insert(metric).second) charts.push_back(chart_of(plan, metric, study));
   leave_out_empty(charts);
-  std::stable_partition(charts.begin(), charts.end(), says_something);
+  put_in_order(charts);
   return charts;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -12,8 +13,21 @@
 namespace sinew {
 namespace {
 
-std::vector<ChartPlan> plans_of_shape() {
+std::vector<ChartPlan> plans_of_motion() {
   return {
+      {"Tip",
+       "Rotation of the last bone's outermost particles, and of the bone that rotates most",
+       "degrees",
+       {{"tip_angle", "outermost particles"}, {"bone_angle", "bone"}},
+       Shown::as_is,
+       5},
+      {"Displacement",
+       "From the places at rest",
+       "r",
+       {{"displacement_rms", "root mean square"}, {"displacement_max", "largest"}},
+       Shown::in_radii,
+       0.5},
+      {"Speed", "Of the fastest particle", "m/s", {{"speed_max", "fastest"}}},
       {"Distance from the bones",
        "Distance of particles from the rigid pose of their bones",
        "r",
@@ -22,85 +36,6 @@ std::vector<ChartPlan> plans_of_shape() {
         {"adherence_rms", "distance to the bone"}},
        Shown::in_radii,
        0.5},
-      {"Volume",
-       "Relative to the body at rest: of the surface, and the mean around particles",
-       "",
-       {{"volume_ratio", "surface"}, {"J_mean", "mean around particles"}},
-       Shown::as_is,
-       0.02,
-       {1}},
-      {"Neighbors",
-       "Pairs lost and gained, as a share of the pairs at rest",
-       "%",
-       {{"broken_neighbors", "lost"},
-        {"new_neighbors", "gained"},
-        {"broken_bonds", "broken bonds"}},
-       Shown::in_percent,
-       1},
-      {"Groups",
-       "Particles that move in groups; all others are free",
-       "%",
-       {{"grouped", "grouped"}},
-       Shown::in_percent,
-       10},
-      {"Tip",
-       "Rotation of the last bone's outermost particles, and of the bone that rotates most",
-       "degrees",
-       {{"tip_angle", "outermost particles"}, {"bone_angle", "bone"}},
-       Shown::as_is,
-       5},
-      {"Twist from half-plane to half-plane",
-       "A cut body shows its whole angle in one step",
-       "degrees",
-       {{"twist_jump_max", "largest jump"}},
-       Shown::as_is,
-       2},
-      {"Sections across the bones",
-       "Largest loss of area (candy wrapper) and largest gain (bulge)",
-       "%",
-       {{"candy_wrapper", "loss"}, {"bulge", "gain"}},
-       Shown::in_percent,
-       2},
-  };
-}
-
-std::vector<ChartPlan> plans_of_material() {
-  return {
-      {"Smallest local volume",
-       "Below zero the surroundings of a particle are inside out",
-       "",
-       {{"J_min", "smallest J"}},
-       Shown::as_is,
-       0.1,
-       {0, 1}},
-      {"Strain",
-       "Equivalent strain not exceeded by 50 %, 95 % and 99 % of the particles",
-       "",
-       {{"strain_50", "50 %"}, {"strain_95", "95 %"}, {"strain_99", "99 %"}},
-       Shown::as_is,
-       0.01},
-      {"Stress",
-       "Von Mises stress not exceeded by 95 % of the particles",
-       "Pa",
-       {{"von_mises_95", "95 %"}}},
-      {"Inverted particles",
-       "Particles whose surroundings are inside out",
-       "",
-       {{"inverted", "inverted"}},
-       Shown::as_is,
-       20},
-  };
-}
-
-std::vector<ChartPlan> plans_of_surface() {
-  return {
-      {"Surface", "Area relative to rest", "", {{"area_ratio", "area"}}, Shown::as_is, 0.02, {1}},
-      {"Self-intersections",
-       "Pairs of faces that intersect",
-       "",
-       {{"self_intersections", "pairs"}},
-       Shown::as_is,
-       20},
       {"Surface and other poses: farthest",
        "From the rigid pose, linear-blend and dual-quaternion skinning, and a reference",
        "r",
@@ -122,15 +57,50 @@ std::vector<ChartPlan> plans_of_surface() {
   };
 }
 
-std::vector<ChartPlan> plans_of_motion() {
+std::vector<ChartPlan> plans_of_deformation() {
   return {
-      {"Displacement",
-       "From the places at rest",
-       "r",
-       {{"displacement_rms", "root mean square"}, {"displacement_max", "largest"}},
-       Shown::in_radii,
-       0.5},
-      {"Speed", "Of the fastest particle", "m/s", {{"speed_max", "fastest"}}},
+      {"Strain",
+       "Equivalent strain not exceeded by 50 %, 95 % and 99 % of the particles",
+       "",
+       {{"strain_50", "50 %"}, {"strain_95", "95 %"}, {"strain_99", "99 %"}},
+       Shown::as_is,
+       0.01},
+      {"Volume",
+       "Relative to the body at rest: of the surface, and the mean around particles",
+       "",
+       {{"volume_ratio", "surface"}, {"J_mean", "mean around particles"}},
+       Shown::as_is,
+       0.02,
+       {1}},
+      {"Smallest local volume",
+       "Below zero the surroundings of a particle are inside out",
+       "",
+       {{"J_min", "smallest J"}},
+       Shown::as_is,
+       1,
+       {0, 1}},
+      {"Sections across the bones",
+       "Largest loss of area (candy wrapper) and largest gain (bulge)",
+       "%",
+       {{"candy_wrapper", "loss"}, {"bulge", "gain"}},
+       Shown::in_percent,
+       2},
+      {"Twist from half-plane to half-plane",
+       "A cut body shows its whole angle in one step",
+       "degrees",
+       {{"twist_jump_max", "largest jump"}},
+       Shown::as_is,
+       2},
+      {"Surface", "Area relative to rest", "", {{"area_ratio", "area"}}, Shown::as_is, 0.02, {1}},
+  };
+}
+
+std::vector<ChartPlan> plans_of_forces() {
+  return {
+      {"Stress",
+       "Von Mises stress not exceeded by 95 % of the particles",
+       "Pa",
+       {{"von_mises_95", "95 %"}}},
       {"Energies",
        "Change since the first frame",
        "J",
@@ -150,17 +120,62 @@ std::vector<ChartPlan> plans_of_motion() {
        0,
        {0},
        Drawn::unless_zero},
+  };
+}
+
+std::vector<ChartPlan> plans_of_remains() {
+  return {
+      {"Neighbors",
+       "Pairs lost and gained, as a share of the pairs at rest",
+       "%",
+       {{"broken_neighbors", "lost"},
+        {"new_neighbors", "gained"},
+        {"broken_bonds", "broken bonds"}},
+       Shown::in_percent,
+       1},
+      {"Inverted particles",
+       "Particles whose surroundings are inside out",
+       "",
+       {{"inverted", "inverted"}},
+       Shown::as_is,
+       20},
+      {"Self-intersections",
+       "Pairs of faces that intersect",
+       "",
+       {{"self_intersections", "pairs"}},
+       Shown::as_is,
+       20},
+  };
+}
+
+std::vector<ChartPlan> plans_of_numerics() {
+  return {
       {"Balance of energies",
        "Residual of the balance; zero for a perfect integrator",
        "J",
        {{"energy_residual", "residual"}}},
+      {"Groups",
+       "Particles that move in groups; all others are free",
+       "%",
+       {{"grouped", "grouped"}},
+       Shown::in_percent,
+       10},
   };
 }
 
 std::vector<ChartPlan> make_plans() {
   std::vector<ChartPlan> all;
-  for (auto* plans : {plans_of_shape, plans_of_material, plans_of_surface, plans_of_motion})
-    for (ChartPlan& plan : plans()) all.push_back(std::move(plan));
+  const auto add = [&](Topic topic, std::vector<ChartPlan> plans) {
+    for (ChartPlan& plan : plans) {
+      plan.topic = topic;
+      all.push_back(std::move(plan));
+    }
+  };
+  add(Topic::motion, plans_of_motion());
+  add(Topic::deformation, plans_of_deformation());
+  add(Topic::forces, plans_of_forces());
+  add(Topic::remains, plans_of_remains());
+  add(Topic::numerics, plans_of_numerics());
   return all;
 }
 
@@ -241,32 +256,43 @@ Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames,
               plan.baselines,
               plan.span,
               plan.drawn,
-              {}};
+              {},
+              plan.topic};
   for (const auto& [metric, words] : plan.metrics)
     chart.lines.push_back({std::string(words), shown_values(plan, metric, frames, radius)});
   return chart;
 }
 
+double largest_change(const Chart& chart) {
+  double change = 0;
+  for (const Line& line : chart.lines) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const double value : line.values)
+      if (drawable(value)) low = std::min(low, value), high = std::max(high, value);
+    if (high > low) change = std::max(change, high - low);
+  }
+  return change;
+}
+
 bool says_something(const Chart& chart) {
   constexpr double rounding = 1e-6, telling = 1.0 / 20;
-  double low = 0, high = 0, largest = 0, change = 0;
-  for (const Line& line : chart.lines) {
-    bool any = false;
-    for (const double value : line.values) {
-      if (!drawable(value)) continue;
-      low = any ? std::min(low, value) : value;
-      high = any ? std::max(high, value) : value;
-      largest = std::max(largest, std::abs(value));
-      any = true;
-    }
-    if (any) change = std::max(change, high - low);
-  }
+  double largest = 0;
+  for (const Line& line : chart.lines)
+    for (const double value : line.values)
+      if (drawable(value)) largest = std::max(largest, std::abs(value));
+  const double change = largest_change(chart);
   return change > rounding * largest && change >= telling * chart.span;
 }
 
 void leave_out_empty(std::vector<Chart>& charts) {
   for (Chart& chart : charts) std::erase_if(chart.lines, never_measured);
   std::erase_if(charts, has_nothing);
+}
+
+void put_in_order(std::vector<Chart>& charts) {
+  std::stable_sort(charts.begin(), charts.end(),
+                   [](const Chart& a, const Chart& b) { return a.topic < b.topic; });
+  std::stable_partition(charts.begin(), charts.end(), says_something);
 }
 
 std::vector<std::size_t> drawn_indices(const std::vector<double>& values) {

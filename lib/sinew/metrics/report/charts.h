@@ -20,6 +20,9 @@ enum class Shown { as_is, in_radii, in_percent, since_start };
 /// A chart of a feature that the scene lacks is zero throughout and may be left out.
 enum class Drawn { always, unless_zero };
 
+/// What a chart tells of. A page shows them in this order: that of what happened.
+enum class Topic { motion, deformation, forces, remains, numerics };
+
 struct ChartedMetric {
   std::string_view name;   ///< in metrics_table()
   std::string_view words;  ///< in the legend
@@ -32,6 +35,7 @@ struct ChartPlan {
   double span = 0;  ///< the scale spans as much, so that trifles look like trifles
   std::vector<double> baselines = {0};  ///< values that the scale always includes
   Drawn drawn = Drawn::always;
+  Topic topic = Topic::motion;
 };
 
 struct Line {
@@ -45,13 +49,18 @@ struct Chart {
   double span = 0;  ///< of the scale, at least
   Drawn drawn = Drawn::always;
   std::vector<Line> lines = {};
+  Topic topic = Topic::motion;
+  std::vector<double> times = {};  ///< of the values, s; empty: those of the frames
 };
+
+/// Largest change of any line of a chart, from its smallest to its largest value.
+double largest_change(const Chart& chart);
 
 /// Whether a chart is worth its place: its values change by a twentieth of what its scale spans at
 /// least, and by more than rounding.
 bool says_something(const Chart& chart);
 
-/// The report's charts, the most informative first.
+/// The report's charts, in the order of their topics.
 std::span<const ChartPlan> chart_plans();
 
 /// Metrics whose worst frames the report links to; names in metrics_table().
@@ -66,6 +75,9 @@ Chart planned_chart(const ChartPlan& plan, std::span<const FrameMetrics> frames,
 
 /// Leaves out lines that were never measured, and charts that have nothing to draw.
 void leave_out_empty(std::vector<Chart>& charts);
+
+/// Puts charts in the order of their topics, those that say nothing last.
+void put_in_order(std::vector<Chart>& charts);
 
 /// Indices of the values to draw, ascending: all of up to max_drawn; of more, the smallest, the
 /// largest and a gap, if any, of each of several hundred pieces.

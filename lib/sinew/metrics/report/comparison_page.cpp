@@ -50,7 +50,8 @@ Chart chart_of_both(const ChartPlan& plan, std::string_view metric, const RunCom
           plan.span,
           plan.drawn,
           {{name_of(compared, false), shown_values(plan, metric, compared.first.frames, radius)},
-           {name_of(compared, true), shown_values(plan, metric, compared.second.frames, radius)}}};
+           {name_of(compared, true), shown_values(plan, metric, compared.second.frames, radius)}},
+          plan.topic};
 }
 
 Chart chart_of_distances(const RunComparison& compared) {
@@ -76,7 +77,7 @@ std::vector<Chart> charts_of(const ComparisonInput& input) {
     for (const auto& [metric, words] : plan.metrics)
       if (drawn.insert(metric).second) charts.push_back(chart_of_both(plan, metric, compared));
   leave_out_empty(charts);
-  std::stable_partition(charts.begin(), charts.end(), says_something);
+  put_in_order(charts);
   return charts;
 }
 
@@ -138,10 +139,10 @@ std::string differences_table(const RunComparison& compared) {
     run_rows += row(described(metric), {{"a", readable(compared.first.summary.*metric.value)},
                                         {"b", readable(compared.second.summary.*metric.value)},
                                         {"b − a", readable(compared.summary.*metric.value)}});
-  return element("h2", "Differences") +
-         table({"metric", "a, final", "b, final", "b − a, final", "largest", "at"}, rows) +
-         element("h2", "Metrics of the whole runs") +
-         table({"metric", "a", "b", "b − a"}, run_rows);
+  return unfolded(
+             "Differences",
+             table({"metric", "a, final", "b, final", "b − a, final", "largest", "at"}, rows)) +
+         unfolded("Metrics of the whole runs", table({"metric", "a", "b", "b − a"}, run_rows));
 }
 
 constexpr double gap = 0.15;  // between the two, relative to the size of the first

@@ -31,7 +31,8 @@ Json points_of(const std::vector<double>& across, const std::vector<double>& up)
   return points;
 }
 
-Json json_of(const Chart& chart, const std::vector<double>& times) {
+Json json_of(const Chart& chart, const std::vector<double>& of_frames) {
+  const std::vector<double>& times = chart.times.empty() ? of_frames : chart.times;
   Json lines = Json::array();
   for (const Line& line : chart.lines)
     lines.push_back({{"name", line.name}, {"points", points_of(times, line.values)}});
@@ -132,8 +133,11 @@ Json machine_json(const std::vector<MachineColumn>& columns) {
   return {{"columns", std::move(all)}, {"across", first.across}, {"up", first.up}};
 }
 
-bool has_bones(const std::vector<double>& angles) {
-  return std::all_of(angles.begin(), angles.end(), [](double angle) { return angle >= 0; });
+/// Whether there are bones, and one bends noticeably.
+bool has_bend(const std::vector<double>& angles) {
+  constexpr double noticed = 0.25;  // degrees
+  return std::all_of(angles.begin(), angles.end(), [](double angle) { return angle >= 0; }) &&
+         std::any_of(angles.begin(), angles.end(), [](double angle) { return angle >= noticed; });
 }
 
 // The browser enforces this: no requests except for the pictures beside the page.
@@ -210,7 +214,7 @@ std::string page_json(const PageData& data) {
   for (const auto& [metric, frame, time] : data.worst)
     json["worst"].push_back({{"metric", metric}, {"frame", frame}, {"time", time}});
   if (!data.machine.empty()) json["machine"] = machine_json(data.machine);
-  json["angles"] = has_bones(data.angles) ? points_of(data.times, data.angles) : Json::array();
+  json["angles"] = has_bend(data.angles) ? points_of(data.times, data.angles) : Json::array();
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -307,6 +311,11 @@ std::string fact_lists(const std::vector<FactGroup>& all) {
     groups += element("section", element("h3", escaped(group.title)) + element("dl", rows));
   }
   return groups.empty() ? "" : element("div", groups, "class=\"facts\"");
+}
+
+std::string unfolded(const std::string& title, const std::string& markup) {
+  return element("details", element("summary", element("h2", escaped(title))) + markup,
+                 "class=\"part\" open");
 }
 
 std::string folded(const std::string& title, const std::string& text) {

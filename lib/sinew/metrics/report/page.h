@@ -38,7 +38,7 @@ struct PageData {
 
 /// One JSON object:
 /// - charts: title, note, unit, baselines, span, folded, lines (name, points [time, value or null])
-/// - angles: of the bones, [time, degrees]; none where there are no bones
+/// - angles: of the bones, [time, degrees]; none where no bone bends noticeably
 /// - curves: title, note, across, up, lines (name, points [x, y])
 /// - worst: metric, frame, time
 /// - machine, where there is one: columns (name, unit, values), and which of them are shown first,
@@ -88,6 +88,9 @@ std::string fact_lists(const std::vector<FactGroup>& groups);
 
 /// A collapsed block of text, such as a scene; empty where there is none.
 std::string folded(const std::string& title, const std::string& text);
+
+/// A block of markup under a heading with which a reader folds it.
+std::string unfolded(const std::string& title, const std::string& markup);
 
 // The files embedded in every page.
 std::string_view page_style();

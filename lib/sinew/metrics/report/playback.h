@@ -97,7 +97,8 @@ void add_obstacles(Playback& playback, std::size_t frame, const Box& space,
                    const Triangles& obstacles);
 
 /// For the page's script: positions as 16-bit fractions of the playback's box, values as 8-bit
-/// fractions of their range (a thousandth of the values at either end lies outside), all in base64.
+/// fractions of their range (a thousandth of the values at either end lies outside: it is between
+/// the `percentiles`), all in base64.
 std::string playback_json(const Playback& playback);
 
 }  // namespace sinew

@@ -174,6 +174,7 @@ std::string playback_json(const Playback& playback) {
                      {"isLoad", playback.is_load},
                      {"held", base64_of(playback.held)},
                      {"obstacles", obstacles_of(playback, cube)},
+                     {"percentiles", {100 * outside, 100 * (1 - outside)}},
                      {"fields", fields_of(playback)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

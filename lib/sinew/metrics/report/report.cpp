@@ -38,6 +38,35 @@ std::string pictures(const ReportInput& input) {
   return element("h2", "Pictures") + element("div", figures, "class=\"pictures\"");
 }
 
+/// Span of a scale of this unit at least: what strains a particle by a hundredth,
+/// or moves it by half its radius. 0 where nothing is known.
+double min_span(const ReportInput& input, std::string_view unit) {
+  constexpr double strain = 0.01;
+  const double width = 2 * input.radius, stress = strain * input.modulus;
+  const double duration = input.frames.back().time - input.frames.front().time;
+  if (unit == "Pa") return stress;
+  if (unit == "N") return stress * width * width;
+  if (unit == "N m") return stress * width * width * width;
+  if (unit == "J") return strain * stress * width * width * width / 2;
+  if (unit == "m") return width / 4;
+  return unit == "m/s" && duration > 0 ? width / 4 / duration : 0;
+}
+
+/// Makes trifles look like trifles, and a residual as small as it is beside the energies.
+void bound_scales(const ReportInput& input, std::vector<Chart>& charts) {
+  constexpr double noticed = 0.1;
+  double energy = 0;
+  for (const Chart& chart : charts)
+    if (chart.unit == "J" && chart.topic != Topic::numerics)
+      energy = std::max(energy, largest_change(chart));
+  for (Chart& chart : charts) {
+    if (chart.span > 0) continue;
+    chart.span = min_span(input, chart.unit);
+    if (chart.unit == "J" && chart.topic == Topic::numerics)
+      chart.span = std::max(chart.span, noticed * energy);
+  }
+}
+
 PageData drawn_data(const ReportInput& input) {
   PageData data;
   for (const FrameMetrics& frame : input.frames) {
@@ -46,9 +75,10 @@ PageData drawn_data(const ReportInput& input) {
   }
   for (const ChartPlan& plan : chart_plans())
     data.charts.push_back(planned_chart(plan, input.frames, input.radius));
+  data.charts.insert(data.charts.end(), input.charts.begin(), input.charts.end());
   leave_out_empty(data.charts);
-  for (const Chart& chart : input.forces) data.charts.push_back(chart);
-  std::stable_partition(data.charts.begin(), data.charts.end(), says_something);
+  bound_scales(input, data.charts);
+  put_in_order(data.charts);
   data.curves = input.curves;
   data.worst = worst_frames(input.frames, input.summary);
   data.machine = input.machine;
@@ -101,9 +131,9 @@ std::string metrics_tables(std::span<const FrameMetrics> frames, const Summary& 
   }
   for (const RunMetric& metric : run_metrics_table())
     run_rows += row(described(metric), {{"value", readable(summary.*metric.value)}});
-  return element("h2", "All metrics") +
-         table({"metric", "min", "max", "mean", "final", "worst frame"}, rows) +
-         element("h2", "Metrics of the whole run") + table({"metric", "value"}, run_rows);
+  return unfolded("All metrics",
+                  table({"metric", "min", "max", "mean", "final", "worst frame"}, rows)) +
+         unfolded("Metrics of the whole run", table({"metric", "value"}, run_rows));
 }
 
 }  // namespace

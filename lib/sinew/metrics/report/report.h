@@ -55,12 +55,13 @@ struct ReportInput {
   std::string subject;  ///< what was run, in a sentence
   std::string version;  ///< of sinew
   double radius = 0;    ///< of a particle, m
+  double modulus = 0;   ///< Young's, Pa; 0: not known
   std::vector<FactGroup> facts;
   std::vector<FrameMetrics> frames;  ///< one at least
   Summary summary;                   ///< of these frames
   std::vector<Check> checks;
   std::vector<LawCurve> curves;
-  std::vector<Chart> forces;           ///< of bones, supports and loads, one value per frame
+  std::vector<Chart> charts;           ///< more of them: of bones, supports, loads and probes
   std::vector<MachineColumn> machine;  ///< all of the same length; the page offers any two of them
   Playback playback;                   ///< of no frames: the page has no 3D view
   std::vector<Picture> pictures;

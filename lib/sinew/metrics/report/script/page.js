@@ -35,6 +35,7 @@ function begin() {
     snapshot: playback?.player.snapshot ?? null,
     playing: Boolean(playback?.player.timer),
     field: playback?.view.playback.fields[Number(byId("field").value)]?.name ?? null,
+    scale: byId("scale")?.textContent ?? null,
     legend: [...byId("bone-names")?.children ?? []].map((entry) => entry.textContent),
     places: playback ? [...playback.view.spheres.geometry.attributes.position.array] : [],
     tints: playback ? [...playback.view.spheres.geometry.attributes.tint.array] : [],

@@ -31,16 +31,19 @@ function showNames(category) {
   byId("bone-names").replaceChildren(...names);
 }
 
-function showScale({ field, category }) {
+/** The color scale with the values at its ends, and which percentiles these are. */
+function showScale({ field, category }, percentiles) {
   byId("bone-names").hidden = !category;
   if (category) showNames(category);
-  const [low, bar, high] = byId("scale").children;
+  const [low, bar, high, ends] = byId("scale").children;
   byId("scale").hidden = !field;
   if (!field) return;
   const stops = viridis.map((color) => `rgb(${color.join(" ")})`).join(", ");
   bar.style.background = `linear-gradient(90deg, ${stops})`;
   low.textContent = readable(field.low);
   high.textContent = `${readable(field.high)} ${field.unit}`.trim();
+  const [first, last] = percentiles.map(readable);
+  ends.textContent = `(${first}st to ${last}th percentile)`;
   byId("scale").title = field.help;
 }
 
@@ -77,7 +80,7 @@ function makePlayer(view) {
     view.obstacles.visible = byId("show-obstacles").checked;
     for (const bone of view.bones) bone.visible = byId("show-bones").checked;
     for (const force of view.forces) force.visible = byId("show-forces").checked;
-    showScale(colored());
+    showScale(colored(), playback.percentiles);
     showSnapshot(view, { snapshot: player.snapshot, cut: byId("cut").checked, ...colored() });
     markTime(time);
   };
