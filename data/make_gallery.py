@@ -23,8 +23,6 @@ SCREENSHOT = DATA.parent / "tests/campaigns/screenshot.sh"
 # run: scene, and what of it is set otherwise
 RUNS = {
     "box_bend": ("box_bend", []),
-    "twist": ("box_twist", []),
-    "arm": ("arm_bend", []),
     "fox": ("creature_walk", []),
     "elastic_arm": ("arm_bend", ["--set", "material.model=bonded"]),
     "cells": ("box_bend", ["--set", "material.model=bonded", "--set", "output.volume=true", "--set",
@@ -41,8 +39,6 @@ RUNS = {
 # picture: run, what `sinew render` is told, and which of its pictures is taken
 PICTURES = {
     "box_bend": ("box_bend", [], "contact_sheet"),
-    "box_twist": ("twist", ["--times", "0,0.5,1"], "contact_sheet"),
-    "arm": ("arm", ["--view", "surface", "--times", "0,0.6,1.5"], "surface_sheet"),
     "fox": ("fox", ["--view", "surface", "--times", "0.25,0.5,0.75"], "surface_sheet"),
     "strain": ("box_bend", ["--view", "strain", "--times", "0.5,1,1.4"], "strain_sheet"),
     "forces": ("box_bend", ["--view", "forces", "--times", "0.5,1,1.4"], "forces_sheet"),

@@ -17,8 +17,9 @@ _sinew() {
       mapfile -t COMPREPLY < <(compgen -W "F J stretch strain hencky_strain strain_eq stress stress_kirchhoff von_mises energy_density D2min turnover surface_layer inverted pose_error all" -- "$word")
       return ;;
     --view)
-      mapfile -t COMPREPLY < <(compgen -W "body surface halves particles section strain forces bonds binding bones" -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W "body surface halves cut particles section strain lines forces bonds binding bones" -- "$word")
       return ;;
+    --look) mapfile -t COMPREPLY < <(compgen -W "screen paper dark" -- "$word"); return ;;
     --engine) mapfile -t COMPREPLY < <(compgen -W "built-in lammps" -- "$word"); return ;;
     --packing) mapfile -t COMPREPLY < <(compgen -W "fcc hcp random conformal" -- "$word"); return ;;
     --to)

@@ -15,7 +15,8 @@ set -l commands new run check fill simulate converge measure render view export 
 complete -c sinew -f -n "not __fish_seen_subcommand_from $commands" -a "$commands"
 complete -c sinew -n "__fish_seen_subcommand_from $commands; and string match -q -- '-*' (commandline -ct)" -f -a '(__sinew_options)'
 complete -c sinew -l set -x -a '(__sinew_keys)'
-complete -c sinew -l view -x -a 'body surface halves particles section strain forces bonds binding bones'
+complete -c sinew -l view -x -a 'body surface halves cut particles section strain lines forces bonds binding bones'
+complete -c sinew -l look -x -a 'screen paper dark'
 complete -c sinew -l unit -x -a 'm dm cm mm um in ft'
 complete -c sinew -l packing -x -a 'fcc hcp random conformal'
 complete -c sinew -l engine -x -a 'built-in lammps'

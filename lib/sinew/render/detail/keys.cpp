@@ -12,6 +12,14 @@ int color_bar_height(const TextStyle& style) { return 3 * line_height(style); }
 
 namespace {
 
+/// Three digits, of thousands without an exponent.
+std::string number_on_bar(double value) {
+  const double size = std::abs(value);
+  if (!(size >= 1e3 && size < 1e6)) return three_digits(value);
+  const double step = std::pow(10, std::floor(std::log10(size)) - 2);
+  return std::to_string(std::llround(std::round(value / step) * step));
+}
+
 void draw_names(Page& page, const ColorScale& scale, int x, int y, int width, TextStyle words) {
   const int line = line_height(words), thick = 3 * line / 4;
   const auto count = static_cast<int>(scale.names.size());
@@ -28,7 +36,7 @@ void draw_values(Page& page, const ColorScale& scale, int x, int y, int width, T
   for (const double part : {0.0, 0.5, 1.0}) {
     const double value = scale.low + part * (scale.high - scale.low);
     words.align = part == 0 ? Align::left : part == 1 ? Align::right : Align::center;
-    page.write(three_digits(value), x + static_cast<int>(part * width), y + thick + 2, words);
+    page.write(number_on_bar(value), x + static_cast<int>(part * width), y + thick + 2, words);
   }
 }
 

@@ -2,7 +2,8 @@
 // Which of many equal spheres may be seen: those deep within a body cost time where graphics are
 // computed, and change nothing.
 //
-//     for (const std::size_t i : visible_spheres(snapshot.particles, snapshot.radius, view)) add(i);
+//     for (const std::size_t i : visible_spheres(snapshot.particles, snapshot.radius, view))
+//     add(i);
 #pragma once
 
 #include <cstddef>
