@@ -12,7 +12,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t particles_per_task = 1024;
+constexpr std::size_t particles_at_a_time = 1024;
 const char* const cure = "measure a run that sinew has written";
 
 void require(bool holds, const std::string& what) {
@@ -123,7 +123,7 @@ std::vector<double> by_bond(const RestBody& body, const Value& value) {
   std::vector<double> values(body.shape.neighbors.neighbor.size() + body.second.neighbor.size());
   double* first = values.data();
   for (const NeighborLists* lists : {&body.shape.neighbors, &body.second}) {
-    parallel_for(lists->size(), particles_per_task, [&](std::size_t begin, std::size_t end) {
+    parallel_for(lists->size(), particles_at_a_time, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         for (std::uint32_t e = lists->first[i]; e < lists->first[i + 1]; ++e)
           first[e] = value(static_cast<std::uint32_t>(i), lists->neighbor[e]);

@@ -139,15 +139,15 @@ struct Painter::Sizes {
   bool obstacles;  ///< stand before or behind the body
 
   /// What is needed of the body's picture.
-  Measured body() const { return shadows || obstacles ? Measured::all : Measured::none; }
+  Readback body() const { return shadows || obstacles ? Readback::all : Readback::colors; }
 };
 
 Painter::Painter(const Triangles& rest, ColorScale scale)
     : skin_(make_shading(rest)), scale_(std::move(scale)) {}
 
 /// What is on the stage, with shadows in hollows of about `radius` (m) where it has any.
-Exposure Painter::shaded(Measured measured, const Sizes& sizes, double radius) {
-  Exposure picture = stage_.render(measured);
+Exposure Painter::shaded(Readback readback, const Sizes& sizes, double radius) {
+  Exposure picture = stage_.render(readback);
   if (sizes.shadows) add_shadows(picture, radius);
   return picture;
 }
@@ -186,7 +186,7 @@ Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes, bool bes
 Exposure Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
   add_skin(stage_.renderer(), snapshot, skin_, scale_);
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  Exposure picture = shaded(Measured::all, sizes, 5 * sizes.grain);
+  Exposure picture = shaded(Readback::all, sizes, 5 * sizes.grain);
   pale(picture);
   picture.coverage = {};
   return picture;
@@ -276,7 +276,7 @@ Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) 
   if (view == View::plan)
     for (const Mark mark : {Mark::held, Mark::loaded, Mark::sample})
       add_particles(stage_.renderer(), marked(snapshot, mark), scale_, stage_.view());
-  shine_through(picture.image, shaded(Measured::all, sizes, 2 * sizes.grain), 1);
+  shine_through(picture.image, shaded(Readback::all, sizes, 2 * sizes.grain), 1);
   return picture;
 }
 

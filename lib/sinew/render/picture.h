@@ -69,7 +69,7 @@ class Painter {
  private:
   struct Sizes;
   Image drawn(const Snapshot& snapshot, const PictureOptions& options);
-  Exposure shaded(Measured measured, const Sizes& sizes, double radius);
+  Exposure shaded(Readback readback, const Sizes& sizes, double radius);
   Exposure body(const Snapshot& snapshot, const Sizes& sizes, View view);
   Exposure particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones);
   Exposure surface(const Snapshot& snapshot, const Sizes& sizes, bool beside_particles);

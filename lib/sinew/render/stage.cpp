@@ -95,11 +95,11 @@ Tile common(const Tile& a, const Tile& b) {
           std::min(a.y + a.height, b.y + b.height) - top};
 }
 
-Exposure unexposed(const Shot& shot, Measured measured) {
+Exposure unexposed(const Shot& shot, Readback readback) {
   Exposure exposure;
   exposure.image = Image(shot.width, shot.height, shot.background);
   exposure.background = shot.background;
-  if (measured == Measured::none) return exposure;
+  if (readback == Readback::colors) return exposure;
   const auto size = static_cast<std::size_t>(shot.width) * shot.height;
   exposure.depth = {shot.width, shot.height, shot.pixel, {}};
   exposure.depth.depth.assign(size, std::numeric_limits<float>::infinity());
@@ -117,7 +117,7 @@ struct Stage::Impl {
   int times = 1;  // rendered this many times larger than the picture
 
   Tile covered() const;
-  void expose(const Tile& tile, const Tile& used, Measured measured, Exposure& exposure);
+  void expose(const Tile& tile, const Tile& used, Readback readback, Exposure& exposure);
   Image pixels(const Tile& drawn, const Tile& used) const;
   void measure(const Tile& drawn, const Tile& used, Exposure& exposure) const;
 };
@@ -144,7 +144,7 @@ Tile Stage::Impl::covered() const {
 }
 
 /// Renders a tile into its part of the exposure, of which `used` is covered.
-void Stage::Impl::expose(const Tile& tile, const Tile& used, Measured measured,
+void Stage::Impl::expose(const Tile& tile, const Tile& used, Readback readback,
                          Exposure& exposure) {
   const Tile drawn = with_border(tile, shot.width, shot.height);
   window->SetSize(times * drawn.width, times * drawn.height);
@@ -154,7 +154,7 @@ void Stage::Impl::expose(const Tile& tile, const Tile& used, Measured measured,
   const Image image = pixels(drawn, used);
   for (int y = 0; y < used.height; ++y)
     std::copy_n(image.at(0, y), 3 * used.width, exposure.image.at(used.x, used.y + y));
-  if (measured == Measured::all) measure(drawn, used, exposure);
+  if (readback == Readback::all) measure(drawn, used, exposure);
 }
 
 Image Stage::Impl::pixels(const Tile& drawn, const Tile& used) const {
@@ -221,13 +221,13 @@ Vec3 Stage::place_at(int x, int y, double depth) const {
 
 vtkRenderer& Stage::renderer() { return *impl_->renderer; }
 
-Exposure Stage::render(Measured measured) {
+Exposure Stage::render(Readback readback) {
   const Shot& shot = impl_->shot;
-  Exposure exposure = unexposed(shot, measured);
+  Exposure exposure = unexposed(shot, readback);
   const Tile covered = impl_->covered();
   for (const Tile& tile : tiles_of(shot.width, shot.height, shot.tile / impl_->times)) {
     const Tile used = common(tile, covered);
-    if (used.width > 0 && used.height > 0) impl_->expose(tile, used, measured, exposure);
+    if (used.width > 0 && used.height > 0) impl_->expose(tile, used, readback, exposure);
   }
   impl_->renderer->RemoveAllViewProps();
   return exposure;

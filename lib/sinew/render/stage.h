@@ -41,7 +41,7 @@ struct Exposure {
 };
 
 /// Depth and coverage take a third of the time where graphics are computed.
-enum class Measured { all, none };
+enum class Readback { all, colors };
 
 class Stage {
  public:
@@ -57,7 +57,7 @@ class Stage {
   /// To which actors are added.
   vtkRenderer& renderer();
   /// Renders the actors and clears the stage.
-  Exposure render(Measured measured = Measured::all);
+  Exposure render(Readback readback = Readback::all);
 
  private:
   struct Impl;
