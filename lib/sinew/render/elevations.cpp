@@ -100,7 +100,7 @@ Camera camera_of(const Elevation& elevation, const Plan& plan) {
 }
 
 /// A frame with ticks outside of it and their numbers in meters.
-void draw_axes(Page& page, const Elevation& elevation, const Plan& plan) {
+void draw_axes(Canvas& page, const Elevation& elevation, const Plan& plan) {
   const int x = elevation.x, right = x + elevation.width, bottom = plan.top + plan.height;
   const int tick = plan.words.size / 2;
   TextStyle numbers = plan.words;
@@ -150,7 +150,7 @@ std::vector<LegendEntry> legend_of(const Snapshot& snapshot, const Plan& plan) {
   return entries;
 }
 
-void draw_legend(Page& page, const Snapshot& snapshot, const Plan& plan) {
+void draw_legend(Canvas& page, const Snapshot& snapshot, const Plan& plan) {
   const int size = plan.words.size;
   int x = 2 * size;
   const int y = plan.legend + line_height(plan.words) / 3;
@@ -166,9 +166,9 @@ void draw_legend(Page& page, const Snapshot& snapshot, const Plan& plan) {
 
 }  // namespace
 
-Page elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options) {
+Canvas elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options) {
   const Plan plan = plan_of(snapshot, options);
-  Page page(options.width, options.height, options.paper.background);
+  Canvas page(options.width, options.height, options.paper.background);
   for (const Elevation& elevation : plan.elevations) {
     const PictureOptions picture{
         View::plan,   camera_of(elevation, plan), elevation.width, plan.height, 0, options.finish,

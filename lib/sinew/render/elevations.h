@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include <sinew/render/page.h>
+#include <sinew/render/canvas.h>
 #include <sinew/render/picture.h>
 
 namespace sinew {
@@ -33,6 +33,6 @@ struct ElevationOptions {
 
 /// Front (x to the right) and side (y to the right), z up, as View::plan shows them; below them the
 /// caption, and what balls and colors mean. Throws as Painter::draw does.
-Page elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options);
+Canvas elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options);
 
 }  // namespace sinew

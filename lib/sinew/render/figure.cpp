@@ -41,25 +41,25 @@ Layout layout_of(const std::vector<Panel>& panels, const FigureOptions& options)
 
 }  // namespace
 
-Image without_background(const Color& ink, const std::function<Page(const Paper&)>& draw) {
+Image without_background(const Color& ink, const std::function<Canvas(const Paper&)>& draw) {
   const auto on = [&](const Color& background) { return draw({background, ink}).pixels(); };
   return cut_out(on({255, 255, 255}), on({0, 0, 0}));
 }
 
-void write_page(const std::function<Page(const Paper&)>& draw, const PageFiles& files,
+void write_page(const std::function<Canvas(const Paper&)>& draw, const PageFiles& files,
                 const std::string& path) {
   if (files.backdrop.transparent)
     return write_png(without_background(files.backdrop.paper.ink, draw), path);
-  const Page page = draw(files.backdrop.paper);
+  const Canvas page = draw(files.backdrop.paper);
   write_png(page.pixels(), path);
   if (files.print_width > 0)
     write_file(std::filesystem::path(path).replace_extension(".svg"), page.svg(files.print_width));
 }
 
-Page figure(const std::vector<Panel>& panels, const FigureOptions& options) {
+Canvas figure(const std::vector<Panel>& panels, const FigureOptions& options) {
   if (panels.empty()) throw bad_input("a figure needs panels", "give at least one");
   const Layout layout = layout_of(panels, options);
-  Page page(options.width, options.height, options.paper.background);
+  Canvas page(options.width, options.height, options.paper.background);
   int x = layout.margin;
   for (const Panel& panel : panels) {
     const PictureOptions picture{panel.view, options.camera, layout.wide,  layout.high,
@@ -181,7 +181,7 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   return layout;
 }
 
-void draw_row(Page& sheet, const SheetRow& row, int y, const SheetLayout& layout,
+void draw_row(Canvas& sheet, const SheetRow& row, int y, const SheetLayout& layout,
               const SheetOptions& options) {
   sheet.write(row.title, layout.margin, y - line_height(layout.text), layout.text);
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
@@ -197,7 +197,7 @@ void draw_row(Page& sheet, const SheetRow& row, int y, const SheetLayout& layout
   }
 }
 
-void write_captions(Page& sheet, const std::vector<Snapshot>& snapshots,
+void write_captions(Canvas& sheet, const std::vector<Snapshot>& snapshots,
                     const SheetLayout& layout) {
   TextStyle words = layout.text;
   words.align = Align::center;
@@ -222,7 +222,7 @@ std::string length_text(double meters) {
 }
 
 /// A bar of a round length at the foot's left, to the scale of the panels.
-void draw_scale_bar(Page& sheet, const SheetLayout& layout, int x, const Color& ink) {
+void draw_scale_bar(Canvas& sheet, const SheetLayout& layout, int x, const Color& ink) {
   const double length = round_length(0.16 * layout.width / layout.scale);
   const int pixels = static_cast<int>(std::lround(length * layout.scale));
   const int thick = std::max(2, layout.text.size / 8), y = layout.bar + line_height(layout.small());
@@ -247,7 +247,7 @@ struct KeyEntry {
 };
 
 /// The entries below each other, from the foot's right end; returns the left end.
-int draw_key(Page& sheet, const SheetLayout& layout, int right, int columns,
+int draw_key(Canvas& sheet, const SheetLayout& layout, int right, int columns,
              const std::vector<KeyEntry>& entries) {
   const TextStyle words = layout.small();
   const int line = line_height(words), side = std::max(4, words.size / 2);
@@ -262,7 +262,7 @@ int draw_key(Page& sheet, const SheetLayout& layout, int right, int columns,
 }
 
 /// The bones' axes, and forces of supports and loads, as far as the rows show them.
-void draw_keys(Page& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
+void draw_keys(Canvas& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
                double strongest_force) {
   int right = layout.width - layout.margin / 2;
   if (has_bones(rows))
@@ -281,7 +281,7 @@ void draw_keys(Page& sheet, const std::vector<SheetRow>& rows, const SheetLayout
   draw_key(sheet, layout, right, 12, forces);
 }
 
-void draw_foot(Page& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
+void draw_foot(Canvas& sheet, const std::vector<SheetRow>& rows, const SheetLayout& layout,
                const SheetOptions& options) {
   const int corner = options.axes ? (layout.height - layout.bar) : 0;
   if (options.axes)
@@ -304,10 +304,10 @@ void check(const std::vector<SheetRow>& rows) {
 
 }  // namespace
 
-Page contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options) {
+Canvas contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options) {
   check(rows);
   const SheetLayout layout = layout_of(rows, options);
-  Page sheet(layout.width, layout.height, options.paper.background);
+  Canvas sheet(layout.width, layout.height, options.paper.background);
   for (std::size_t i = 0; i < rows.size(); ++i)
     draw_row(sheet, rows[i], layout.rows[i], layout, options);
   write_captions(sheet, *rows.front().snapshots, layout);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <sinew/render/page.h>
+#include <sinew/render/canvas.h>
 #include <sinew/render/picture.h>
 
 namespace sinew {
@@ -32,7 +32,7 @@ struct FigureOptions {
 
 /// The caption is that of the first panel's snapshot, the color scale that of its painter: all
 /// panels share it. Throws bad input without panels, and as Painter::draw does.
-Page figure(const std::vector<Panel>& panels, const FigureOptions& options);
+Canvas figure(const std::vector<Panel>& panels, const FigureOptions& options);
 
 /// What pictures are drawn on; nothing where `transparent`, with the ink of `paper`.
 struct Backdrop {
@@ -41,7 +41,7 @@ struct Backdrop {
 };
 
 /// What `draw` draws, without its background: it is drawn on white and on black.
-Image without_background(const Color& ink, const std::function<Page(const Paper&)>& draw);
+Image without_background(const Color& ink, const std::function<Canvas(const Paper&)>& draw);
 
 /// The files of a page.
 struct PageFiles {
@@ -51,7 +51,7 @@ struct PageFiles {
 
 /// Writes the page that `draw` draws on that background to `path`, which ends with .png; twice
 /// drawn for a transparent one, which has to be cut out. Throws not written.
-void write_page(const std::function<Page(const Paper&)>& draw, const PageFiles& files,
+void write_page(const std::function<Canvas(const Paper&)>& draw, const PageFiles& files,
                 const std::string& path);
 
 // A contact sheet: a run in one picture, moments from left to right, views below each other.
@@ -79,7 +79,7 @@ struct SheetOptions {
 /// All panels to one scale; below them the captions of the first row's snapshots and the color
 /// scale of its painter. Throws bad input without rows or snapshots, for rows of different lengths,
 /// and as Painter::draw does.
-Page contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
+Canvas contact_sheet(const std::vector<SheetRow>& rows, const SheetOptions& options);
 
 /// Follows the paper's figure 4: the surface above, the particles below, over time.
 std::vector<SheetRow> surface_above_particles(Painter& painter,

@@ -20,7 +20,7 @@ std::string number_on_bar(double value) {
   return std::to_string(std::llround(std::round(value / step) * step));
 }
 
-void draw_names(Page& page, const ColorScale& scale, int x, int y, int width, TextStyle words) {
+void draw_names(Canvas& page, const ColorScale& scale, int x, int y, int width, TextStyle words) {
   const int line = line_height(words), thick = 3 * line / 4;
   const auto count = static_cast<int>(scale.names.size());
   for (int k = 0; k < count; ++k) {
@@ -30,7 +30,7 @@ void draw_names(Page& page, const ColorScale& scale, int x, int y, int width, Te
   }
 }
 
-void draw_values(Page& page, const ColorScale& scale, int x, int y, int width, TextStyle words) {
+void draw_values(Canvas& page, const ColorScale& scale, int x, int y, int width, TextStyle words) {
   const int line = line_height(words), thick = 3 * line / 4;
   page.fill(x, y, width, thick, scale.map);
   for (const double part : {0.0, 0.5, 1.0}) {
@@ -42,7 +42,7 @@ void draw_values(Page& page, const ColorScale& scale, int x, int y, int width, T
 
 }  // namespace
 
-void draw_color_bar(Page& page, const ColorScale& scale, int x, int y, int width,
+void draw_color_bar(Canvas& page, const ColorScale& scale, int x, int y, int width,
                     const TextStyle& style) {
   TextStyle words = style;
   words.align = Align::center;
@@ -54,7 +54,7 @@ void draw_color_bar(Page& page, const ColorScale& scale, int x, int y, int width
 
 int tripod_size(int width, int height) { return std::max(14, std::min(width, height) / 11); }
 
-void draw_tripod(Page& page, const Mat3& view, int x, int y, int size) {
+void draw_tripod(Canvas& page, const Mat3& view, int x, int y, int size) {
   const Eigen::Vector2d middle(x + 1.4 * size, y - 1.4 * size);
   TextStyle words;
   words.size = std::max(9, size / 2);

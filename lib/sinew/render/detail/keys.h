@@ -5,14 +5,14 @@
 //     draw_tripod(page, camera.view, 10, page.height() - 10, tripod_size(640, 480));
 #pragma once
 
-#include <sinew/render/page.h>
+#include <sinew/render/canvas.h>
 #include <sinew/render/snapshot.h>
 
 namespace sinew {
 
 /// The colors of `scale` from left to right with its limits, or the names of its values, below and
 /// its name above, `width` pixels wide and color_bar_height() pixels high.
-void draw_color_bar(Page& page, const ColorScale& scale, int x, int y, int width,
+void draw_color_bar(Canvas& page, const ColorScale& scale, int x, int y, int width,
                     const TextStyle& style);
 int color_bar_height(const TextStyle& style);
 
@@ -21,6 +21,6 @@ int tripod_size(int width, int height);
 
 /// X, Y and Z in red, green and blue as `view` (rows: right, up, toward the viewer) shows them, in
 /// a square above and to the right of (x, y), about 2.8 times `size` wide.
-void draw_tripod(Page& page, const Mat3& view, int x, int y, int size);
+void draw_tripod(Canvas& page, const Mat3& view, int x, int y, int size);
 
 }  // namespace sinew

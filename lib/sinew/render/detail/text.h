@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include <sinew/render/page.h>
+#include <sinew/render/canvas.h>
 
 namespace sinew {
 

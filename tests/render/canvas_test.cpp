@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/render/page.h>
+#include <sinew/render/canvas.h>
 
 #include <algorithm>
 #include <regex>
@@ -11,15 +11,15 @@
 #include "helpers.h"
 #include "synthetic_run.h"
 
-namespace sinew::page_test {
+namespace sinew::canvas_test {
 
 Color color_at(const Image& image, int x, int y) {
   return {image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]};
 }
 
-TEST(Page, color_bar_of_names_has_a_part_for_each) {
+TEST(Canvas, color_bar_of_names_has_a_part_for_each) {
   const TextStyle style{14};
-  Page page(200, color_bar_height(style) + 10, palette::paper);
+  Canvas page(200, color_bar_height(style) + 10, palette::paper);
   const ColorScale scale{"material", "", 0, 2, ColorMap::indigo, {"flesh", "fat", "bone"}};
   draw_color_bar(page, scale, 10, 5, 180, style);
   const Image image = page.pixels();
@@ -29,8 +29,8 @@ TEST(Page, color_bar_of_names_has_a_part_for_each) {
       EXPECT_EQ(color_at(image, x, middle), scale.color(part)) << x;
 }
 
-TEST(Page, color_bar_runs_from_low_to_high) {
-  Page page(200, 80, palette::paper);
+TEST(Canvas, color_bar_runs_from_low_to_high) {
+  Canvas page(200, 80, palette::paper);
   const TextStyle style{16, palette::ink, Align::left};
   draw_color_bar(page, {"speed", "m/s", 0, 2}, 10, 5, 180, style);
   const Image image = page.pixels();
@@ -39,8 +39,8 @@ TEST(Page, color_bar_runs_from_low_to_high) {
   EXPECT_EQ(color_at(image, 189, y), mapped_color(1));
 }
 
-TEST(Page, discs_and_strokes_are_round) {
-  Page page(100, 100, palette::paper);
+TEST(Canvas, discs_and_strokes_are_round) {
+  Canvas page(100, 100, palette::paper);
   page.disc(50, 50, 20, {0, 0, 0});
   EXPECT_NEAR(painted(page.pixels()), pi * 400 / 1e4, 0.01);
   page.stroke({10, 5}, {90, 5}, 3, {0, 0, 0});
@@ -56,8 +56,8 @@ std::vector<std::string> found(const std::string& text, const std::string& patte
   return all;
 }
 
-TEST(Page, as_svg_holds_words_as_words_and_pictures_as_they_are) {
-  Page page(300, 150, palette::paper);
+TEST(Canvas, as_svg_holds_words_as_words_and_pictures_as_they_are) {
+  Canvas page(300, 150, palette::paper);
   Image picture(20, 10, {10, 200, 30});
   page.add(picture, 5, 7);
   page.write("a < b & c\nsecond", 100, 20, {12, palette::ink, Align::center});
@@ -74,10 +74,10 @@ TEST(Page, as_svg_holds_words_as_words_and_pictures_as_they_are) {
   EXPECT_EQ(found(page.svg(0), " width=\"([0-9.]*)mm\"").size(), 0U);
 }
 
-TEST(Page, is_written_as_png_and_for_print_as_svg_too) {
+TEST(Canvas, is_written_as_png_and_for_print_as_svg_too) {
   const Folder folder;
   const auto draw = [](const Paper& paper) {
-    Page page(64, 32, paper.background);
+    Canvas page(64, 32, paper.background);
     page.write("words", 4, 4, {12, paper.ink});
     return page;
   };
@@ -88,4 +88,4 @@ TEST(Page, is_written_as_png_and_for_print_as_svg_too) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("print.png")));
 }
 
-}  // namespace sinew::page_test
+}  // namespace sinew::canvas_test

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page of pictures and what is written and drawn beside them: as pixels, or as SVG, in which the
-// pictures are embedded and all else stays sharp at any size.
+// A canvas of pictures and what is written and drawn beside them: as pixels, or as SVG, in which
+// the pictures are embedded and all else stays sharp at any size.
 //
-//     Page page(1280, 720, palette::paper);
-//     page.add(picture, 20, 20);
-//     page.write("t = 1 s", 20, 680, {.size = 20});
-//     write_png(page.pixels(), "bent.png");
+//     Canvas canvas(1280, 720, palette::paper);
+//     canvas.add(picture, 20, 20);
+//     canvas.write("t = 1 s", 20, 680, {.size = 20});
+//     write_png(canvas.pixels(), "bent.png");
 #pragma once
 
 #include <string>
@@ -28,9 +28,9 @@ struct TextStyle {
 int line_height(const TextStyle& style);
 
 /// All places in pixels from the upper left corner; what reaches beyond the page is cut off.
-class Page {
+class Canvas {
  public:
-  Page(int width, int height, const Color& background);
+  Canvas(int width, int height, const Color& background);
 
   int width() const { return width_; }
   int height() const { return height_; }

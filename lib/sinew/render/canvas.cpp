@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/render/page.h>
+#include <sinew/render/canvas.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,40 +102,42 @@ std::string lines_of(const std::string& text, int x, int y, const TextStyle& sty
 
 int line_height(const TextStyle& style) { return static_cast<int>(std::lround(1.35 * style.size)); }
 
-Page::Page(int width, int height, const Color& background)
+Canvas::Canvas(int width, int height, const Color& background)
     : width_(width), height_(height), background_(background) {}
 
-void Page::add(Image picture, int x, int y) { items_.push_back(Picture{std::move(picture), x, y}); }
+void Canvas::add(Image picture, int x, int y) {
+  items_.push_back(Picture{std::move(picture), x, y});
+}
 
-void Page::write(std::string text, int x, int y, const TextStyle& style) {
+void Canvas::write(std::string text, int x, int y, const TextStyle& style) {
   if (!text.empty()) items_.push_back(Words{std::move(text), x, y, style});
 }
 
-void Page::fill(int x, int y, int width, int height, const Color& color) {
+void Canvas::fill(int x, int y, int width, int height, const Color& color) {
   items_.push_back(Bar{x, y, width, height, color});
 }
 
-void Page::fill(int x, int y, int width, int height, ColorMap map) {
+void Canvas::fill(int x, int y, int width, int height, ColorMap map) {
   items_.push_back(Bar{x, y, width, height, map});
 }
 
-void Page::disc(double x, double y, double radius, const Color& color) {
+void Canvas::disc(double x, double y, double radius, const Color& color) {
   items_.push_back(Stroke{{x, y}, {x, y}, radius, color});
 }
 
-void Page::stroke(const Vec2& from, const Vec2& to, double radius, const Color& color) {
+void Canvas::stroke(const Vec2& from, const Vec2& to, double radius, const Color& color) {
   items_.push_back(Stroke{from, to, radius, color});
 }
 
-void Page::put(Image& page, const Picture& picture) {
+void Canvas::put(Image& page, const Picture& picture) {
   paste(page, picture.image, picture.x, picture.y);
 }
 
-void Page::put(Image& page, const Words& words) {
+void Canvas::put(Image& page, const Words& words) {
   write_text(page, words.text, words.x, words.y, words.style);
 }
 
-void Page::put(Image& page, const Bar& bar) {
+void Canvas::put(Image& page, const Bar& bar) {
   if (const auto* color = std::get_if<Color>(&bar.color))
     return sinew::fill(page, bar.x, bar.y, bar.width, bar.height, *color);
   const ColorMap map = std::get<ColorMap>(bar.color);
@@ -145,7 +147,7 @@ void Page::put(Image& page, const Bar& bar) {
 }
 
 /// With soft edges.
-void Page::put(Image& page, const Stroke& stroke) {
+void Canvas::put(Image& page, const Stroke& stroke) {
   const auto& [a, b, radius, color] = stroke;
   const Vec2 reach = Vec2::Constant(radius + 1);
   const Eigen::Vector2i low = (a.cwiseMin(b) - reach).cast<int>(),
@@ -160,13 +162,13 @@ void Page::put(Image& page, const Stroke& stroke) {
     }
 }
 
-Image Page::pixels() const {
+Image Canvas::pixels() const {
   Image page(width_, height_, background_);
   for (const auto& item : items_) std::visit([&](const auto& one) { put(page, one); }, item);
   return page;
 }
 
-std::string Page::markup(const Picture& picture) {
+std::string Canvas::markup(const Picture& picture) {
   return Element("image")
       .set("x", picture.x)
       .set("y", picture.y)
@@ -176,12 +178,12 @@ std::string Page::markup(const Picture& picture) {
       .end();
 }
 
-std::string Page::markup(const Words& words) {
+std::string Canvas::markup(const Words& words) {
   return lines_of(words.text, words.x, words.y, words.style);
 }
 
 /// Gradients are named by their place: several pages may stand in one document.
-std::string Page::markup(const Bar& bar) {
+std::string Canvas::markup(const Bar& bar) {
   const auto& [x, y, width, height, color] = bar;
   const Element area = rectangle(x, y, width, height);
   if (const auto* plain = std::get_if<Color>(&color))
@@ -191,7 +193,7 @@ std::string Page::markup(const Bar& bar) {
          Element(area).set("fill", "url(#" + name + ')').end();
 }
 
-std::string Page::markup(const Stroke& stroke) {
+std::string Canvas::markup(const Stroke& stroke) {
   return Element("line")
       .set("x1", stroke.from.x())
       .set("y1", stroke.from.y())
@@ -203,7 +205,7 @@ std::string Page::markup(const Stroke& stroke) {
       .end();
 }
 
-std::string Page::svg(double millimeters) const {
+std::string Canvas::svg(double millimeters) const {
   std::string content = rectangle(0, 0, width_, height_).set("fill", hex_of(background_)).end();
   for (const auto& item : items_)
     content += std::visit([](const auto& one) { return markup(one); }, item);
