@@ -66,8 +66,8 @@ std::string grouped_by_thousands(std::size_t count) {
 std::string subject_of(const DrawnRun& run) {
   const Particles& particles = run.files().body.particles;
   const bool paper = run.files().settings.material.model == MaterialModel::paper;
-  return run.name() + ":  " + grouped_by_thousands(particles.size()) + " particles of radius " +
-         three_digits(1e3 * particles.radius) + " mm, " +
+  return run.name() + ":  " + grouped_by_thousands(particles.size()) +
+         " particles of radius r = " + three_digits(1e3 * particles.radius) + " mm, " +
          (paper ? "the paper's material" : "bonded");
 }
 
@@ -248,6 +248,8 @@ void FigureSet::sheet() {
   sheet.rulers = true;
   sheet.strongest_force = runs_.front()->strongest_force();
   if (runs_.size() == 1) sheet.title = subject_of(*runs_.front());
+  if (runs_.size() == 1 && !of_body())
+    sheet.title += '\n' + name() + ":  " + std::string(drawn(0).preset.help);
   const auto write = [&](const std::vector<SheetRow>& rows, const std::string& file) {
     const auto on = [&](const Paper& paper) {
       sheet.paper = paper;

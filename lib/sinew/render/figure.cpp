@@ -128,12 +128,14 @@ double summed_width(const std::vector<Column>& columns) {
   return sum;
 }
 
+int lines_in(const std::string& text) {
+  return text.empty() ? 0 : static_cast<int>(1 + std::count(text.begin(), text.end(), '\n'));
+}
+
 int caption_lines(const std::vector<Snapshot>& snapshots) {
-  std::ptrdiff_t most = 0;
-  for (const Snapshot& snapshot : snapshots)
-    if (!snapshot.caption.empty())
-      most = std::max(most, 1 + std::count(snapshot.caption.begin(), snapshot.caption.end(), '\n'));
-  return static_cast<int>(most);
+  int most = 0;
+  for (const Snapshot& snapshot : snapshots) most = std::max(most, lines_in(snapshot.caption));
+  return most;
 }
 
 /// The largest scale at which the columns, with gaps between, fit into the width and the row
@@ -167,7 +169,9 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   layout.text.color = options.paper.ink;
   layout.paper = options.paper.background;
   lay_columns(layout, options);
-  int y = options.title.empty() ? 0 : layout.margin / 2 + line_height(layout.text);
+  int y = 0;
+  if (!options.title.empty())
+    y = layout.margin / 2 + lines_in(options.title) * line_height(layout.text);
   for (const SheetRow& row : rows) {
     y += layout.margin + (row.title.empty() ? 0 : line_height(layout.text));
     layout.rows.push_back(y);
