@@ -91,6 +91,7 @@ class DrawnRun {
   DrawnView applied(const ViewPreset& preset) const;
   void select_bones();
   void read_overview();
+  void check_plane(const Box& body) const;
   DrawnValues::Range range_in(std::size_t index, const RunFrame& frame,
                               const DrawnView& drawn) const;
   bool is_selected(std::size_t particle) const;

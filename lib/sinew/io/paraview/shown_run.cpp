@@ -59,7 +59,7 @@ std::vector<double> magnitudes(const Column& column) {
 
 double quantile(std::vector<double>& values, double fraction) {
   const auto place =
-      static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1) + 0.5);
+      static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
                    values.end());
   return values[place];
