@@ -95,6 +95,15 @@ TEST(DrawnVolume, CutsAtThePlaneThatIsAskedForAndColorsByTheParticles) {
     EXPECT_NEAR(snapshot.skin_sides.at(i), snapshot.surface.points[i].z() - 0.2, 1e-9);
 }
 
+TEST(DrawnVolume, RefusesAPlaneThatMissesTheBody) {
+  const TempFolder folder;
+  const RunFolder at = run_of(folder, "axis: [0, 1, 0], angle: 30");
+  DrawnRunOptions options = drawn_as("cut");
+  options.plane = CutPlane{{0, 0, 5}, {0, 0, 1}};
+  test::expect_bad_input([&] { DrawnRun(at.path.string(), options); },
+                         {"does not meet the body", "between -0.0", "0.69"});
+}
+
 /// The plane is one across all of the bar, so that what is missing of it is what is torn.
 TEST(DrawnVolume, LeavesOutTornCells) {
   const TempFolder folder;

@@ -168,6 +168,23 @@ DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,
   return DrawnValues::range_of(std::move(values));
 }
 
+/// Refuses a plane that misses the body at all times; `body` is around it then.
+void DrawnRun::check_plane(const Box& body) const {
+  if (!options_.plane) return;
+  bool before = false, behind = false;
+  for (int corner = 0; corner < 8; ++corner)
+    (options_.plane->distance(body.corner(static_cast<Box::CornerType>(corner))) > 0 ? before
+                                                                                     : behind) =
+        true;
+  if (before && behind) return;
+  const auto words = [](const Vec3& place) {
+    return three_digits(place.x()) + ',' + three_digits(place.y()) + ',' + three_digits(place.z());
+  };
+  throw bad_input(
+      "the plane does not meet the body",
+      "give a point on it between " + words(body.min()) + " and " + words(body.max()) + " m");
+}
+
 void DrawnRun::read_overview() {
   const std::vector<std::size_t> traced = traced_places(run_, options_.traced);
   overview_.paths.resize(traced.size());
@@ -190,6 +207,7 @@ void DrawnRun::read_overview() {
     body.extend(bounds(frame.positions)).extend(bounds(frame.surface_points));
     extend(snapshot_of(run_, std::move(frame), 0));
   }
+  check_plane(body);
   overview_.plane =
       options_.plane ? DrawnPlane(*options_.plane) : DrawnPlane(run_, turns, options_.view);
   overview_.obstacle_space = obstacle_space(body);
