@@ -253,7 +253,8 @@ std::vector<Chart> table_charts(const std::filesystem::path& folder) {
                         span,
                         Drawn::always,
                         std::move(lines),
-                        quantity.topic});
+                        quantity.topic,
+                        columns[0].values});
     }
   }
   return charts;
