@@ -85,7 +85,7 @@ class ViewPreset(unittest.TestCase):
             self.assertIn(part, lines[0])
 
     def test_every_view_leaves_its_pictures_and_a_sheet(self):
-        views = ["surface", "particles", "section", "strain", "halves", "forces", "bones"]
+        views = ["surface", "particles", "section", "strain", "halves", "cut", "lines", "forces", "bones"]
         done = self.render("--view", ",".join(views), "--times", "0.1,0.2", "--no-movie")
         self.assertEqual(done.returncode, 0, done.stderr)
         expected = [f"{view}_{part}.png" for view in views for part in ("000002", "000004", "sheet")]
@@ -116,8 +116,28 @@ class ViewPreset(unittest.TestCase):
         for view in ["surface", "halves", "body"]:
             self.assert_one_line(self.render("--view", view, "--array", "warmth", "--no-movie"), 2, "'warmth'",
                                  "strain_eq", "velocity")
-            self.assert_one_line(self.render("--view", view, "--array", "stress_kirchhoff", "--no-movie"), 2,
-                                 "stress_kirchhoff", "velocity")
+            self.assert_one_line(self.render("--view", view, "--array", "acceleration", "--no-movie"), 2,
+                                 "acceleration", "velocity")
+
+    def test_arrays_that_positions_define_are_measured_where_the_run_lacks_them(self):
+        done = self.render("--view", "cut", "--array", "stress_kirchhoff", "--times", "0.2", "--no-movie")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_planes_cut_where_they_are_asked_to(self):
+        for plane in ["0,0,0.2,0,0,1", "0,0,0.5,0,0,1"]:
+            done = self.render("--view", "cut", f"--plane={plane}", "--times", "0.2", "--no-movie")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_one_line(self.render("--view", "cut", "--plane=0,0,9,0,0,1", "--no-movie"), 2, "does not meet the body")
+        self.assert_one_line(self.render("--view", "cut", "--plane=0,0,9", "--no-movie"), 2, "six numbers")
+
+    def test_for_print_words_are_written_as_vectors(self):
+        done = self.render("--look", "paper", "--view", "cut", "--times", "0.2", "--no-movie")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        pages = sorted(self.pictures.glob("*.svg"))
+        self.assertEqual([page.stem for page in pages], sorted(page.stem for page in self.pictures.glob("*.png")))
+        text = pages[0].read_text()
+        self.assertIn(">0.2 s,", text)
+        self.assertIn('width="180mm"', text)
 
     def test_camera_colors_range_and_array_change_the_picture(self):
         ways = [[], ["--camera", "front"], ["--camera", "1,0,0.5"], ["--camera", "top"],
