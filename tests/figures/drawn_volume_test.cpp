@@ -101,7 +101,7 @@ TEST(DrawnVolume, RefusesAPlaneThatMissesTheBody) {
   DrawnRunOptions options = drawn_as("cut");
   options.plane = CutPlane{{0, 0, 5}, {0, 0, 1}};
   test::expect_bad_input([&] { DrawnRun(at.path.string(), options); },
-                         {"does not meet the body", "between -0.0", "0.69"});
+                         {"does not meet the body", "between -0.08", "0.70"});
 }
 
 /// The plane is one across all of the bar, so that what is missing of it is what is torn.
