@@ -36,6 +36,7 @@ namespace {
 
 std::vector<SnapshotForce> arrows_of(const std::vector<ShownForce>& forces) {
   std::vector<SnapshotForce> arrows;
+  arrows.reserve(forces.size());
   for (const ShownForce& one : forces) arrows.push_back({one.from, one.along, one.is_load});
   return arrows;
 }
