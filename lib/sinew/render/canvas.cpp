@@ -158,7 +158,8 @@ void Canvas::put(Image& page, const Stroke& stroke) {
       const double coverage = std::clamp(radius + 0.5 - away, 0.0, 1.0);
       std::uint8_t* pixel = page.at(x, y);
       for (std::size_t c = 0; c < 3; ++c)
-        pixel[c] = static_cast<std::uint8_t>(coverage * color[c] + (1 - coverage) * pixel[c] + 0.5);
+        pixel[c] =
+            static_cast<std::uint8_t>(std::lround(coverage * color[c] + (1 - coverage) * pixel[c]));
     }
 }
 
