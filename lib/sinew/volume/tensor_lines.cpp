@@ -227,6 +227,7 @@ std::vector<std::uint32_t> seeds_in(std::span<const Cell> cells,
     return std::tie(b.value, a.cell) < std::tie(a.value, b.cell);
   });
   std::vector<std::uint32_t> order;
+  order.reserve(seeds.size());
   for (const Seed& seed : seeds) order.push_back(seed.cell);
   return order;
 }
