@@ -7,12 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <sinew/figures/snapshots.h>
 #include <sinew/io/vtu.h>
-#include <sinew/run/simulate.h>
-#include <sinew/settings/read_scene.h>
+#include "figures/drawn_runs.h"
 #include "support/expect_error.h"
-#include "support/temp_folder.h"
 
 namespace sinew::drawn_volume_test {
 
@@ -36,21 +33,13 @@ motion:
 solver: {duration: 0.2}
 output: {interval: 0.1)" + more +
                             "}\n";
-  const RunFolder run{folder.path() / "run"};
-  EXPECT_EQ(simulate(read_scene(folder.write("scene.yaml", scene).string()), run).exit, Exit::done);
-  return run;
-}
-
-DrawnRunOptions drawn_as(const char* view) {
-  DrawnRunOptions options;
-  options.presets = {view_preset_named(view)};
-  return options;
+  return test::run_of_scene(folder, scene);
 }
 
 TEST(DrawnPlane, IsThatOfTheBendAndRidesOnTheParent) {
   const TempFolder folder;
   const RunFolder at = run_of(folder, "axis: [0, 1, 0], angle: 60");
-  const DrawnRun run(at.path.string(), drawn_as("body"));
+  const DrawnRun run(at.path.string(), test::drawn_as("body"));
   for (const std::size_t frame : {0U, 2U}) {
     const CutPlane plane = run.overview().plane->at(read_frame(run.files(), frame));
     EXPECT_LT((plane.point - joint).norm(), 1e-6);
@@ -61,7 +50,7 @@ TEST(DrawnPlane, IsThatOfTheBendAndRidesOnTheParent) {
 TEST(DrawnPlane, FacesTheViewerWhereABoneTwists) {
   const TempFolder folder;
   const RunFolder at = run_of(folder, "axis: [0, 0, 1], angle: 60");
-  const DrawnRun run(at.path.string(), drawn_as("body"));
+  const DrawnRun run(at.path.string(), test::drawn_as("body"));
   const CutPlane plane = run.overview().plane->at(read_frame(run.files(), 0));
   EXPECT_NEAR(plane.normal.z(), 0, 1e-9);
   const Vec3 viewer = three_quarter_view().row(2);
@@ -71,7 +60,7 @@ TEST(DrawnPlane, FacesTheViewerWhereABoneTwists) {
 TEST(DrawnVolume, CutsAtThePlaneThatIsAskedForAndColorsByTheParticles) {
   const TempFolder folder;
   const RunFolder at = run_of(folder, "axis: [0, 1, 0], angle: 30");
-  DrawnRunOptions options = drawn_as("cut");
+  DrawnRunOptions options = test::drawn_as("cut");
   options.array = "J";
   options.plane = CutPlane{{0, 0, 0.2}, {0, 0, 1}};
   const DrawnRun run(at.path.string(), options);
@@ -98,7 +87,7 @@ TEST(DrawnVolume, CutsAtThePlaneThatIsAskedForAndColorsByTheParticles) {
 TEST(DrawnVolume, RefusesAPlaneThatMissesTheBody) {
   const TempFolder folder;
   const RunFolder at = run_of(folder, "axis: [0, 1, 0], angle: 30");
-  DrawnRunOptions options = drawn_as("cut");
+  DrawnRunOptions options = test::drawn_as("cut");
   options.plane = CutPlane{{0, 0, 5}, {0, 0, 1}};
   test::expect_bad_input([&] { DrawnRun(at.path.string(), options); },
                          {"does not meet the body", "between -0.08", "0.70"});
@@ -109,7 +98,7 @@ TEST(DrawnVolume, LeavesOutTornCells) {
   const TempFolder folder;
   const RunFolder at =
       run_of(folder, "stretch: 1.6", ", bonds: true, volume: true", ", breaking_strain: 0.2");
-  const DrawnRun run(at.path.string(), drawn_as("cut"));
+  const DrawnRun run(at.path.string(), test::drawn_as("cut"));
   const Dataset last = read_vtu(at.path / "volume" / "volume_000002.vtu");
   const std::vector<std::int32_t>& torn = integers(last.cell_columns, "torn");
   std::vector<std::array<std::uint32_t, 4>> whole;
@@ -134,7 +123,7 @@ TEST(DrawnVolume, LeavesOutTornCells) {
 TEST(DrawnVolume, HasLinesOfStressAlongABarThatIsPulled) {
   const TempFolder folder;
   const RunFolder at = run_of(folder, "stretch: 1.2");
-  const DrawnRun run(at.path.string(), drawn_as("lines"));
+  const DrawnRun run(at.path.string(), test::drawn_as("lines"));
   const DrawnView& drawn = run.view_presets().front();
   const Snapshot snapshot = run.snapshot(2, drawn);
   ASSERT_GT(snapshot.curves.size(), 2U);
@@ -156,7 +145,6 @@ TEST(DrawnValues, MeasureStressAsTheRunWritesIt) {
   const RunFiles files = open_run(at);
   const RunFrame frame = read_frame(files, 2);
   const DrawnValues written(files, "stress");
-  RunFiles bare = files;
   const TempFolder other;
   const RunFolder without = run_of(other, "stretch: 1.2", ", double_precision: true");
   const RunFiles measured_files = open_run(without);

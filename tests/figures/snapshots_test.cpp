@@ -8,10 +8,8 @@
 #include <cmath>
 
 #include <sinew/figures/figure_set.h>
-#include <sinew/run/simulate.h>
-#include <sinew/settings/read_scene.h>
+#include "figures/drawn_runs.h"
 #include "support/expect_error.h"
-#include "support/temp_folder.h"
 
 namespace sinew::snapshots_test {
 
@@ -75,22 +73,13 @@ TEST(FigureSet, RefusesPicturesThatExceedTheMemory) {
 
 /// The bending box with its bonds.
 RunFolder bending_run(const TempFolder& folder, bool bonds) {
-  const std::string scene = stretching_scene(bonds);
-  const RunFolder run{folder.path() / "run"};
-  EXPECT_EQ(simulate(read_scene(folder.write("scene.yaml", scene).string()), run).exit, Exit::done);
-  return run;
-}
-
-DrawnRunOptions drawn_as(const char* view) {
-  DrawnRunOptions options;
-  options.presets = {view_preset_named(view)};
-  return options;
+  return test::run_of_scene(folder, stretching_scene(bonds));
 }
 
 TEST(DrawnRun, TracesPickedParticlesUpToTheMoment) {
   const TempFolder folder;
   const RunFolder at = bending_run(folder, false);
-  DrawnRunOptions options = drawn_as("body");
+  DrawnRunOptions options = test::drawn_as("body");
   options.traced = {0, 40};
   const DrawnRun run(at.path.string(), options);
   const Snapshot snapshot = run.snapshot(1, run.view_presets().front());
@@ -109,7 +98,7 @@ TEST(DrawnRun, TracesPickedParticlesUpToTheMoment) {
 TEST(DrawnRun, DrawsSelectedBonesAndGraysTheParticlesOfOthers) {
   const TempFolder folder;
   const RunFolder at = bending_run(folder, false);
-  DrawnRunOptions options = drawn_as("body");
+  DrawnRunOptions options = test::drawn_as("body");
   options.bones = {"upper"};
   const DrawnRun run(at.path.string(), options);
   const Snapshot snapshot = run.snapshot(2, run.view_presets().front());
@@ -130,7 +119,7 @@ TEST(DrawnRun, DrawsSelectedBonesAndGraysTheParticlesOfOthers) {
 TEST(DrawnRun, DrawsWrittenBonds) {
   const TempFolder folder;
   const RunFolder at = bending_run(folder, true);
-  const DrawnRun run(at.path.string(), drawn_as("bonds"));
+  const DrawnRun run(at.path.string(), test::drawn_as("bonds"));
   const DrawnView& view = run.view_presets().front();
   const Snapshot snapshot = run.snapshot(2, view);
   EXPECT_EQ(view.name(), "strain");
@@ -148,7 +137,7 @@ TEST(DrawnRun, DrawsWrittenBonds) {
 TEST(DrawnRun, SaysHowBondsAreWritten) {
   const TempFolder folder;
   const RunFolder at = bending_run(folder, false);
-  test::expect_bad_input([&] { DrawnRun(at.path.string(), drawn_as("bonds")); },
+  test::expect_bad_input([&] { DrawnRun(at.path.string(), test::drawn_as("bonds")); },
                          {"has not written its bonds", "--set output.bonds=true"});
 }
 
@@ -162,7 +151,7 @@ TEST(DrawnRun, ColorsTheSkinByItsOwnArrayOrByThatOfTheParticles) {
   scene.output.skin = "none";
   ASSERT_EQ(simulate(scene, bare).exit, Exit::done);
   for (const char* array : {"strain_eq", "strain", "von_mises"}) {
-    DrawnRunOptions options = drawn_as("surface");
+    DrawnRunOptions options = test::drawn_as("surface");
     options.array = array;
     const DrawnRun own(with_skin.path.string(), options), carried(bare.path.string(), options);
     const Snapshot snapshot = own.snapshot(2, own.view_presets().front());
@@ -182,7 +171,7 @@ TEST(DrawnRun, ColorsTheSkinByItsOwnArrayOrByThatOfTheParticles) {
 TEST(DrawnRun, ColorsTheSkinByMagnitudesAndWholeNumbersAndOnlyWhereAsked) {
   const TempFolder folder;
   const RunFolder at = bending_run(folder, false);
-  DrawnRunOptions options = drawn_as("surface");
+  DrawnRunOptions options = test::drawn_as("surface");
   const DrawnRun plain(at.path.string(), options);
   EXPECT_TRUE(plain.snapshot(2, plain.view_presets().front()).skin_values.empty());
   options.array = "displacement";
@@ -203,7 +192,7 @@ TEST(DrawnRun, ColorsTheSkinByMagnitudesAndWholeNumbersAndOnlyWhereAsked) {
 TEST(DrawnRun, HalvesTheBodyBetweenSkinAndParticles) {
   const TempFolder folder;
   const RunFolder at = bending_run(folder, false);
-  const DrawnRun run(at.path.string(), drawn_as("halves"));
+  const DrawnRun run(at.path.string(), test::drawn_as("halves"));
   const Snapshot snapshot = run.snapshot(0, run.view_presets().front());
   const Vec3 right = three_quarter_view().row(0);
   const double middle = right.dot(bounds(positions_of(run.files().body.particles)).center());

@@ -90,19 +90,23 @@ TEST(OwnForces, AccelerateAsNewtonSays) {
   test::expect_bad_input([&] { own.set(Points(rest.size(), Vec3::Constant(NAN))); }, {"finite"});
 }
 
+Triangles one_triangle() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}; }
+
+/// Along z, by a strain of e.
+void draw_out(Prepared& prepared, const Points& rest, double e) {
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    prepared.filled.particles.set_position(i, Vec3(1, 1, 1 + e).cwiseProduct(rest[i]));
+}
+
 /// A bonded body drawn out evenly: the closed form of its strain, at once.
 TEST(ParticleMeter, SeesTheStrainOfThePresentMoment) {
   Settings settings = test::box_scene(25);
   settings.material.model = MaterialModel::bonded;
   const Points rest = test::fcc_box(7, 7, 25, r);
   Prepared prepared = test::prepared(settings, rest);
-  Triangles skin;
-  skin.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  skin.faces = {{0, 1, 2}};
-  ParticleMeter meter(prepared.body, skin);
+  ParticleMeter meter(prepared.body, one_triangle());
   const double e = 0.01;
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    prepared.filled.particles.set_position(i, Vec3(1, 1, 1 + e).cwiseProduct(rest[i]));
+  draw_out(prepared, rest, e);
   Simulation simulation = start(std::move(prepared));
   const std::vector<Column> found = meter.arrays(simulation, "strain");
   ASSERT_EQ(found.size(), 1u);
@@ -126,13 +130,9 @@ TEST(ParticleMeter, SeesTheStressOfPartsByTheirOwnModulus) {
   settings.materials = {stiff};
   const Points rest = test::fcc_box(7, 7, 25, r);
   Prepared prepared = test::prepared(settings, rest);
-  Triangles skin;
-  skin.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  skin.faces = {{0, 1, 2}};
-  ParticleMeter meter(prepared.body, skin);
+  ParticleMeter meter(prepared.body, one_triangle());
   const double e = 1e-4;
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    prepared.filled.particles.set_position(i, Vec3(1, 1, 1 + e).cwiseProduct(rest[i]));
+  draw_out(prepared, rest, e);
   const std::vector<double> modulus = prepared.body.stiffness;
   ASSERT_EQ(modulus.size(), rest.size());
   Simulation simulation = start(std::move(prepared));
@@ -155,10 +155,7 @@ TEST(ParticleMeter, SeesTheEnergyOfThePairsWhereItIs) {
     Settings settings = bending();
     settings.material.model = model;
     Prepared prepared = test::prepared(settings, test::fcc_box(7, 7, 25, r));
-    Triangles skin;
-    skin.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    skin.faces = {{0, 1, 2}};
-    ParticleMeter meter(prepared.body, skin);
+    ParticleMeter meter(prepared.body, one_triangle());
     Simulation simulation = start(std::move(prepared));
     while (simulation.time() < 0.2) simulation.step();
     const std::vector<Column> found = meter.arrays(simulation, "energy_density");

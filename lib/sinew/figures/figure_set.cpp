@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -181,21 +180,23 @@ std::vector<Panel> FigureSet::panels(const std::vector<Snapshot>& snapshots) {
   return panels;
 }
 
-/// The box around these moments of all runs.
-Box FigureSet::frame_of(const std::vector<KeyMoment>& moments) const {
-  Box box;
-  for (const KeyMoment& moment : moments)
-    for (const Snapshot& snapshot : snapshots(moment.frame))
-      box.extend(seen(options_.view, snapshot));
-  return box;
+/// At the moments, of each run; pictures and sheet share what is read.
+const std::vector<std::vector<Snapshot>>& FigureSet::at_moments() {
+  if (at_moments_.empty())
+    for (const KeyMoment& moment : moments()) at_moments_.push_back(snapshots(moment.frame));
+  return at_moments_;
 }
 
 int FigureSet::pictures() {
   const std::vector<KeyMoment> chosen = moments();
   FigureOptions options = figure_options(Finish::fine);
-  options.camera.frame = frame_of(chosen);
-  for (const auto& [frame, what] : chosen) {
-    std::vector<Snapshot> moment = snapshots(frame);
+  options.camera.frame = {};
+  for (const std::vector<Snapshot>& moment : at_moments())
+    for (const Snapshot& snapshot : moment)
+      options.camera.frame.extend(seen(options_.view, snapshot));
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const auto& [frame, what] = chosen[k];
+    std::vector<Snapshot> moment = at_moments()[k];
     if (!what.empty()) moment.front().caption = what + ",  " + moment.front().caption;
     const auto on = [&](const Paper& paper) {
       options.paper = paper;
@@ -221,24 +222,22 @@ std::vector<Snapshot> FigureSet::cut_open() const {
   constexpr std::size_t many = 200'000;  // particles, whose cells take 3 s
   const DrawnRun& run = *runs_.front();
   if (run.files().body.particles.size() > many) return {};
-  DrawnView cut = drawn(0);
-  cut.preset = view_preset_named("cut");
   std::vector<Snapshot> snapshots;
   try {
-    cut.skin.emplace(run.files(), cut.values);
-    cut.volume = std::make_shared<DrawnVolume>(run.files());
+    const DrawnView cut = run.cut_open(drawn(0));
+    for (const KeyMoment& moment : moments()) snapshots.push_back(run.snapshot(moment.frame, cut));
   } catch (const Error&) {  // particles that are not written, or a mesh that is not there
     return {};
   }
-  for (const KeyMoment& moment : moments()) snapshots.push_back(run.snapshot(moment.frame, cut));
   return snapshots;
 }
 
 void FigureSet::sheet() {
+  const std::vector<KeyMoment> chosen = moments();
   std::vector<std::vector<Snapshot>> over_time(runs_.size());
-  for (const auto& [frame, what] : moments()) {
-    std::vector<Snapshot> moment = snapshots(frame);
-    moment.front().caption += '\n' + what;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    std::vector<Snapshot> moment = at_moments()[k];
+    moment.front().caption += '\n' + chosen[k].what;
     for (std::size_t run = 0; run < runs_.size(); ++run)
       over_time[run].push_back(std::move(moment[run]));
   }

@@ -61,9 +61,9 @@ class FigureSet {
   ColorScale scale() const;
   std::vector<KeyMoment> moments() const;
   std::vector<Snapshot> snapshots(std::size_t frame) const;
+  const std::vector<std::vector<Snapshot>>& at_moments();
   bool particles_are_small(const SheetOptions& sheet) const;
   std::vector<Snapshot> cut_open() const;
-  Box frame_of(const std::vector<KeyMoment>& moments) const;
   Camera movie_camera(std::size_t frame) const;
   std::vector<Panel> panels(const std::vector<Snapshot>& snapshots);
   FigureOptions figure_options(Finish finish) const;
@@ -76,6 +76,7 @@ class FigureSet {
   std::size_t preset_;
   FigureSetOptions options_;
   std::deque<Painter> painters_;  ///< one for each run
+  std::vector<std::vector<Snapshot>> at_moments_;
 };
 
 }  // namespace sinew

@@ -116,14 +116,27 @@ DrawnView DrawnRun::applied(const ViewPreset& preset) const {
     if (preset.view == View::halves || preset.view == View::cut ||
         (has_skin && !options_.array.empty()))
       drawn.skin.emplace(run_, drawn.values);
-    if (preset.view == View::cut || preset.view == View::curves)
-      drawn.volume = std::make_shared<DrawnVolume>(run_);
+    if (preset.view == View::cut || preset.view == View::curves) drawn.volume = volume();
     return drawn;
   }
   if (!options_.array.empty())
     throw bad_input("the view binding shows forces of bones, not the array " + shown(array),
                     "leave out --array, or choose another view: --view forces");
   return {preset, DrawnValues(run_, array), {}, {}, DrawnPulls(run_)};
+}
+
+/// All views share it.
+std::shared_ptr<const DrawnVolume> DrawnRun::volume() const {
+  if (!volume_) volume_ = std::make_shared<DrawnVolume>(run_);
+  return volume_;
+}
+
+DrawnView DrawnRun::cut_open(const DrawnView& body) const {
+  DrawnView cut = body;
+  cut.preset = view_preset_named("cut");
+  cut.skin.emplace(run_, cut.values);
+  cut.volume = volume();
+  return cut;
 }
 
 void DrawnRun::select_bones() {
@@ -259,7 +272,7 @@ void DrawnRun::keep(Snapshot& snapshot, const std::function<bool(const Vec3&)>& 
 
 /// The cut is vertical, across the viewer's direction at rest, and deforms with the body, so that
 /// the same particles are seen at all times.
-void DrawnRun::cut_open(Snapshot& snapshot) const {
+void DrawnRun::show_section(Snapshot& snapshot) const {
   const Vec3 back = options_.view.row(2);
   Vec3 across = Vec3::UnitY();
   for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())})
@@ -405,7 +418,7 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   add_traces(snapshot, index);
   if (drawn.pulls) add_pulls(snapshot, pulls, drawn);
   if (drawn.bonds) add_bonds(snapshot, index, drawn);
-  if (drawn.preset.cut_open) cut_open(snapshot);
+  if (drawn.preset.cut_open) show_section(snapshot);
   if (view == View::halves) halve(snapshot);
   if (view == View::cut) open_skin(snapshot, plane);
   if (view == View::arrows) add_arrows(snapshot, index, drawn, plane);

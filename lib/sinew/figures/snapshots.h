@@ -86,6 +86,8 @@ class DrawnRun {
   std::vector<KeyMoment> key_moments() const;
 
   Snapshot snapshot(std::size_t index, const DrawnView& drawn) const;
+  /// The same moment's body, cut open in the colors of its view. Throws as DrawnVolume does.
+  DrawnView cut_open(const DrawnView& body) const;
 
  private:
   DrawnView applied(const ViewPreset& preset) const;
@@ -101,7 +103,8 @@ class DrawnRun {
   void add_pulls(Snapshot& snapshot, const std::vector<DrawnPull>& pulls,
                  const DrawnView& drawn) const;
   void keep(Snapshot& snapshot, const std::function<bool(const Vec3&)>& is_kept) const;
-  void cut_open(Snapshot& snapshot) const;
+  std::shared_ptr<const DrawnVolume> volume() const;
+  void show_section(Snapshot& snapshot) const;
   void halve(Snapshot& snapshot) const;
   void open_skin(Snapshot& snapshot, const CutPlane& plane) const;
   void color_skin(Snapshot& snapshot, std::vector<double> values) const;
@@ -114,8 +117,9 @@ class DrawnRun {
   std::vector<DrawnView> views_;
   RunOverview overview_;
   std::optional<ShownForces> forces_;
-  std::vector<bool> selected_;  ///< bones; empty: all
-  std::vector<Mark> marks_;     ///< of the written particles; empty: none
+  std::vector<bool> selected_;                         ///< bones; empty: all
+  std::vector<Mark> marks_;                            ///< of the written particles; empty: none
+  mutable std::shared_ptr<const DrawnVolume> volume_;  ///< made where it is asked for first
 };
 
 }  // namespace sinew

@@ -282,8 +282,7 @@ const char* why_undefined(std::string_view name) {
            "the run itself writes it, by output.arrays";
   if (name == "energy_density")
     return "energies of bonds that break, creep or relax do not follow from positions alone; of "
-           "those "
-           "that break or creep, the run itself writes it, by output.arrays";
+           "those that break or creep, the run itself writes it, by output.arrays";
   if (name == "pose_error") return "no particle has a bone";
   return "all neighbors of each particle lie in a plane";
 }

@@ -152,6 +152,13 @@ Exposure Painter::shaded(Readback readback, const Sizes& sizes, double radius) {
   return picture;
 }
 
+/// The same without its coverage, which is large in large pictures.
+Exposure Painter::opaque(const Sizes& sizes, double radius) {
+  Exposure picture = shaded(sizes.body(), sizes, radius);
+  picture.coverage = {};
+  return picture;
+}
+
 Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones) {
   add_particles(stage_.renderer(), snapshot, scale_, stage_.view());
   if (skin_and_bones) {
@@ -159,7 +166,7 @@ Exposure Painter::particles(const Snapshot& snapshot, const Sizes& sizes, bool s
                 {sizes.line, 0.35 * snapshot.radius, sizes.pixel});
     add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   }
-  Exposure picture = shaded(sizes.body(), sizes, 2 * sizes.grain);
+  Exposure picture = opaque(sizes, 2 * sizes.grain);
   if (!skin_and_bones || snapshot.bones.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, ivory);
   shine_through(picture.image, stage_.render(), 0.6F);
@@ -174,7 +181,7 @@ Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes, bool bes
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
   const double hollow = (beside_particles ? 2 : 5) * sizes.grain;
-  Exposure picture = shaded(sizes.body(), sizes, hollow);
+  Exposure picture = opaque(sizes, hollow);
   const Snapshot held = marked(snapshot, Mark::held);
   if (snapshot.bones.empty() && held.particles.empty()) return picture;
   add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);

@@ -70,6 +70,7 @@ class Painter {
   struct Sizes;
   Image drawn(const Snapshot& snapshot, const PictureOptions& options);
   Exposure shaded(Readback readback, const Sizes& sizes, double radius);
+  Exposure opaque(const Sizes& sizes, double radius);
   Exposure body(const Snapshot& snapshot, const Sizes& sizes, View view);
   Exposure particles(const Snapshot& snapshot, const Sizes& sizes, bool skin_and_bones);
   Exposure surface(const Snapshot& snapshot, const Sizes& sizes, bool beside_particles);

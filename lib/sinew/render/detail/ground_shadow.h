@@ -13,7 +13,7 @@ namespace sinew {
 
 class GroundShadow {
  public:
-  /// Throws that of spheres of `radius` (m) at these points (n x 3, m).
+  /// The shadow of spheres of `radius` (m) at these points (n x 3, m).
   GroundShadow(const Points& centers, double radius);
 
   /// How much of the light from above is hidden at a place: 0 .. 1; 0 above the body.
