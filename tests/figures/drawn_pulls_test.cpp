@@ -8,10 +8,8 @@
 #include <set>
 
 #include <sinew/figures/figure_set.h>
-#include <sinew/run/simulate.h>
-#include <sinew/settings/read_scene.h>
+#include "figures/drawn_runs.h"
 #include "support/expect_error.h"
-#include "support/temp_folder.h"
 
 namespace sinew::drawn_pulls_test {
 
@@ -35,12 +33,6 @@ solver: {duration: 0.05}
 output: {interval: 0.05}
 )";
 
-RunFolder run_of(const TempFolder& folder, const std::string& scene) {
-  const RunFolder run{folder.path() / "run"};
-  EXPECT_EQ(simulate(read_scene(folder.write("scene.yaml", scene).string()), run).exit, Exit::done);
-  return run;
-}
-
 /// Volume bound to a bone over its length is its section A, so that stiffness E V0 / A is
 /// stiffness E length / count.
 double stiffness(const RunFiles& run, const DrawnPull& pull, double relative) {
@@ -60,7 +52,7 @@ double axial_stiffness(const RunFiles& run, const DrawnPull& pull) {
 
 TEST(DrawnPulls, AreTheSpringsOfAParticleThatIsDisplaced) {
   const TempFolder folder;
-  const RunFiles run = open_run(run_of(folder, stretching));
+  const RunFiles run = open_run(test::run_of_scene(folder, stretching));
   const DrawnPulls pulls(run);
   const RunFrame rest = read_frame(run, 0);
   const std::vector<DrawnPull> at_rest = pulls.at(rest);
@@ -90,7 +82,7 @@ TEST(DrawnPulls, AreTheSpringsOfAParticleThatIsDisplaced) {
 
 TEST(DrawnPulls, HoldParticlesAtReferencePointsThatMoveWithTheBone) {
   const TempFolder folder;
-  const RunFiles run = open_run(run_of(folder, stretching));
+  const RunFiles run = open_run(test::run_of_scene(folder, stretching));
   const DrawnPulls pulls(run);
   const std::vector<DrawnPull> before = pulls.at(read_frame(run, 0));
   const std::vector<DrawnPull> after = pulls.at(read_frame(run, 2));
@@ -110,7 +102,7 @@ TEST(DrawnPulls, AreDrawnAsArrowsOfWhichTheLongestIsTheStrongest) {
   const TempFolder folder;
   DrawnRunOptions options;
   options.presets = {view_preset_named("binding")};
-  const std::string path = run_of(folder, stretching).path.string();
+  const std::string path = test::run_of_scene(folder, stretching).path.string();
   const DrawnRun run(path, options);
   const DrawnView& view = run.view_presets().front();
   const Snapshot snapshot = run.snapshot(2, view);
@@ -133,7 +125,7 @@ TEST(DrawnPulls, AreDrawnAsArrowsOfWhichTheLongestIsTheStrongest) {
 
 TEST(DrawnPulls, NeedBones) {
   const TempFolder folder;
-  const RunFiles run = open_run(run_of(folder, boneless));
+  const RunFiles run = open_run(test::run_of_scene(folder, boneless));
   test::expect_bad_input([&] { DrawnPulls{run}; }, {"no particle", "skeleton.bones", "--view"});
 }
 
