@@ -7,13 +7,12 @@
 
 namespace sinew {
 
-double near_at_rest(const Body& body) {
-  return std::max(rest_neighbor_range(body.material.pair.r),
-                  law_of(body.material).range(body.material));
+double near_at_rest(const Material& material) {
+  return std::max(rest_neighbor_range(material.pair.r), law_of(material).range(material));
 }
 
 bool pass_through(const Body& body, std::size_t a, std::size_t b) {
-  const double near = near_at_rest(body);
+  const double near = near_at_rest(body.material);
   return body.pass_through.any() &&
          body.pass_through.between(body.binding.bone(a), body.binding.bone(b)) &&
          (body.rest[a] - body.rest[b]).squaredNorm() >= near * near;

@@ -48,7 +48,7 @@ struct Body {
 };
 
 /// Particles nearer than this at rest, m, act on each other whatever bones hold them.
-double near_at_rest(const Body& body);
+double near_at_rest(const Material& material);
 /// Whether particles, by id, pass through each other; the same for both orders.
 bool pass_through(const Body& body, std::size_t a, std::size_t b);
 

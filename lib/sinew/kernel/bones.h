@@ -165,7 +165,7 @@ SINEW_INLINE Pull<L> spring_pull(const BoneNow<typename L::Real>& bone, const Tr
           radial.energy + twist.energy + axial.energy};
 }
 
-/// Those of springs that yield: body/bone_force.h has the form. A function of its own: few bones
+/// Springs that yield: body/bone_force.h has the form. A function of its own: few bones
 /// have them.
 template <class L>
 [[gnu::noinline]] void yielding_pull(const BoneNow<typename L::Real>& bone, const Triple<L>& at,

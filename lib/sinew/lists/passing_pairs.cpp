@@ -8,7 +8,7 @@ namespace sinew {
 PassingPairs::PassingPairs(const Body& body, std::span<const std::int32_t> id) {
   if (!body.pass_through.any()) return;
   body_ = &body;
-  near2_ = near_at_rest(body) * near_at_rest(body);
+  near2_ = near_at_rest(body.material) * near_at_rest(body.material);
   id_.assign(id.begin(), id.end());
   bone_.reserve(id.size());
   for (const std::int32_t one : id) {

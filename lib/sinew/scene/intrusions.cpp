@@ -19,7 +19,7 @@ using Particle = std::uint32_t;
 using Pair = std::array<int, 2>;
 
 constexpr std::size_t particles_per_task = 512;
-constexpr double least_depth = 0.5;    // radii: rows of a lattice do not lie closer
+constexpr double min_depth = 0.5;    // radii: rows of a lattice do not lie closer
 constexpr double apart_at_rest = 3.9;  // radii: 1.5 ranges of the attraction
 constexpr std::size_t max_outer = 60'000;
 
@@ -175,7 +175,7 @@ std::vector<Intrusion> intrusions(const Body& body, const Motion& motion,
   if (motion.tracks.empty() || body.rest.empty()) return {};
   const Overlaps overlaps(body);
   const BoneWeights weights = weights_of(body.binding);
-  const double least = least_depth * body.material.pair.r;
+  const double least = min_depth * body.material.pair.r;
   PoseCursor poses(body.skeleton, motion);
   std::map<Pair, Intrusion> found;
   for (const double time : times) {
