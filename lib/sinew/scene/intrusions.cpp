@@ -19,7 +19,7 @@ using Particle = std::uint32_t;
 using Pair = std::array<int, 2>;
 
 constexpr std::size_t particles_per_task = 512;
-constexpr double min_depth = 0.5;    // radii: rows of a lattice do not lie closer
+constexpr double min_depth = 0.5;      // radii: rows of a lattice do not lie closer
 constexpr double apart_at_rest = 3.9;  // radii: 1.5 ranges of the attraction
 constexpr std::size_t max_outer = 60'000;
 
