@@ -98,6 +98,11 @@ bool may_be_posed(const Settings& settings) {
 
 }  // namespace
 
+bool begins_far_from_rest(const Skeleton& skeleton, Motion clip) {
+  skip_rest(skeleton, clip);
+  return largest_turn(skeleton, clip) > far_from_rest;
+}
+
 Beginning begin_of(const Settings& settings, const Body& body, Motion& motion) {
   const Begin begin = settings.motion.begin;
   if (begin == Begin::rest || motion.tracks.empty()) return {};

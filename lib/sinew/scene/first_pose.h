@@ -20,6 +20,9 @@ struct Beginning {
   std::string why;     ///< in a line; "" where nobody has to know
 };
 
+/// Whether a bone is turned by over 90 degrees where a clip starts.
+bool begins_far_from_rest(const Skeleton& skeleton, Motion clip);
+
 /// Decides it for a body, and starts the motion there: without preroll, and with the second key
 /// where the first is the rest pose and the second is not. Throws bad input, with the scene's line,
 /// for a first pose with a preroll, and with what knows the rest state alone.
