@@ -171,7 +171,7 @@ TEST(PassThrough, WhatIsNearAtRestActsAsAlways) {
   for (const MaterialModel model : {MaterialModel::paper, MaterialModel::bonded}) {
     Settings settings = test::box_scene(25);
     settings.material.model = model;
-    settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(1, 30)})};
+    settings.tracks = {test::track("upper", {test::bend_key(0, 0), test::bend_key(0.5, 30)})};
     Settings split = settings;
     split.contact.pass_through.pairs = {{"lower", "upper"}};
     const Points rest = test::fcc_box(7, 7, 25, r);
