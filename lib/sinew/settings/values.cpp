@@ -147,7 +147,7 @@ FieldValue read_vector(const Given& given) {
 FieldValue read_pairs(const Given& given) {
   const YamlNode& node = given.node;
   if (node.kind == Kind::empty) throw wrong(given, "");
-  if (node.kind == Kind::scalar && !node.quoted) return read_choice(given);
+  if (node.kind == Kind::scalar) return read_choice(given);
   if (node.kind != Kind::list) throw wrong(given, ", not a list of pairs");
   if (node.items.empty()) throw wrong(given, " without pairs");
   std::vector<NamePair> pairs;
