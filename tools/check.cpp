@@ -14,6 +14,7 @@
 #include <sinew/scene/body.h>
 #include <sinew/scene/check.h>
 #include <sinew/scene/groups.h>
+#include <sinew/scene/intrusions.h>
 #include <sinew/scene/model_limits.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/rest_trial.h>
@@ -167,6 +168,35 @@ void add_stretches(const Prepared& prepared, Results& results) {
   }
 }
 
+/// Flesh that the motion drives into other flesh.
+void add_intrusions(const Prepared& prepared, Results& results) {
+  constexpr std::size_t max_lines = 8;
+  const double r = prepared.body.material.pair.r;
+  const auto found = intrusions_of(prepared);
+  auto all = nlohmann::ordered_json::array();
+  for (const Intrusion& one : found) {
+    const auto name = [&](int bone) {
+      return prepared.body.skeleton.bones[static_cast<std::size_t>(bone)].name;
+    };
+    const bool passes = prepared.body.pass_through.between(one.bones[0], one.bones[1]);
+    if (all.size() < max_lines)
+      results.add_line("flesh_meets", name(one.bones[0]) + " and " + name(one.bones[1]) + ", " +
+                                          three_digits(one.depth / r) + " r deep at " +
+                                          three_digits(one.deepest) + " s, first at " +
+                                          three_digits(one.first) + " s" +
+                                          (passes ? "; passes through" : ""));
+    all.push_back({{"bones", {name(one.bones[0]), name(one.bones[1])}},
+                   {"depth", one.depth / r},
+                   {"first", one.first},
+                   {"deepest", one.deepest},
+                   {"passes_through", passes}});
+  }
+  if (found.size() > max_lines)
+    results.add_line("flesh_meets", std::to_string(found.size() - max_lines) +
+                                        " more pairs of bones, which --json lists");
+  results.add_value("intrusions", std::move(all));
+}
+
 void add_steps(const Prepared& prepared, double speed, Results& results) {
   const auto limit_of = [&](Integrator integrator) {
     return step_limit(integrator, prepared.body, load_of(prepared.body));
@@ -290,6 +320,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   for (const ModelLimit& limit : model_limits(prepared))
     results.add(limit.key, limit.value, limit.text);
   add_stretches(prepared, results);
+  add_intrusions(prepared, results);
   if (prepared.load_steps)
     add_load_steps(prepared, rate, results);
   else

@@ -278,4 +278,48 @@ TEST(BoneSprings, TakeTheStrengthOfTheirBone) {
   EXPECT_DOUBLE_EQ(own[1].damping, 2 * plain[1].damping);  // critical still
 }
 
+/// A pull whose springs yield at forces far below those that they would exert.
+Pull yielding_pull(BoneForce form, double max_force) {
+  Pull pull(beside, form);
+  pull.springs.max_force = max_force;
+  pull.carry(test::turned({1, 2, 3}, 50), {0.3, 0, 0.1});
+  return pull;
+}
+
+TEST(BoneForce, YieldingSpringsAreMinusTheGradientOfTheirEnergyAndBounded) {
+  std::mt19937 random(3);
+  for (const BoneForce form : {BoneForce::paper, BoneForce::anchor}) {
+    const Pull pull = yielding_pull(form, 0.3), firm = yielding_pull(form, 0);
+    double most = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      const Vec3 position = pull.particle.position + 2 * test::random_vector(random);
+      if (trial < 50) expect_gradient(pull, position);
+      const BonePull now = pull.at(position), unbounded = firm.at(position);
+      most = std::max(most, now.spring.norm());
+      EXPECT_LE(now.spring.norm(), 0.3 * (1 + 1e-12));
+      EXPECT_LE(now.energy, unbounded.energy);
+      EXPECT_LT(now.spring.cross(unbounded.spring).norm(), 1e-9);  // of the same direction
+      EXPECT_LT((now.radial + now.twist + now.axial - now.spring).norm(), 1e-12);
+    }
+    EXPECT_GT(most, form == BoneForce::anchor ? 0.299 : 0.05);
+  }
+}
+
+TEST(BoneForce, NearTheAxisAndAtHalfATurnYieldingSpringsAreBoundedToo) {
+  const Pull pull = yielding_pull(BoneForce::paper, 0.3);
+  const Vec3 foot = pull.pose.frame.origin + pull.pose.frame.rotation * Vec3(0.4, 0, 0);
+  for (const double distance : {1e-6, 1e-3, 0.05, 0.13, 0.14, 0.27})
+    for (int angle = 0; angle < 360; angle += 10) {
+      const Vec3 across = test::turned(Vec3::UnitX(), angle) * Vec3(0, distance, 0);
+      EXPECT_LE(pull.at(foot + pull.pose.frame.rotation * across).spring.norm(), 0.3 * (1 + 1e-12));
+    }
+}
+
+TEST(BoneForce, SpringsDoNotYieldBelowTheirEnergy) {
+  const Pull pull = yielding_pull(BoneForce::paper, 100), firm = yielding_pull(BoneForce::paper, 0);
+  const Vec3 position = pull.particle.position + Vec3(0.01, 0.02, -0.01);
+  EXPECT_EQ(pull.at(position).spring, firm.at(position).spring);
+  EXPECT_EQ(pull.at(position).energy, firm.at(position).energy);
+}
+
 }  // namespace sinew::bone_force_test

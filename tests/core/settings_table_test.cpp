@@ -30,6 +30,9 @@ FieldValue sample(const Field<Owner>& field, int seed) {
     }
     case FieldKind::choice:
       return std::string(field.choices[seed % field.choices.size()]);
+    case FieldKind::pairs:
+      if (seed == 0) return std::string(field.choices.front());
+      return std::vector<NamePair>(static_cast<std::size_t>(seed), {"one", "other"});
     case FieldKind::text:
     case FieldKind::path:
       return "text" + std::to_string(seed);
@@ -69,7 +72,9 @@ void expect_well_formed(std::span<const Field<Owner>> table) {
     EXPECT_FALSE(field.help.empty()) << field.name;
     EXPECT_EQ(field.help.find('\n'), std::string_view::npos) << field.name;
     EXPECT_TRUE(field.kind == FieldKind::numbers || field.count == 0) << field.name;
-    EXPECT_EQ(field.kind == FieldKind::choice, !field.choices.empty()) << field.name;
+    EXPECT_EQ(field.kind == FieldKind::choice || field.kind == FieldKind::pairs,
+              !field.choices.empty())
+        << field.name;
     const auto& sections = sinew::sections();
     const bool known = std::find(sections.begin(), sections.end(), field.section) != sections.end();
     EXPECT_TRUE(field.section.empty() || known) << field.section;

@@ -54,6 +54,12 @@ class Chance {
           list.push_back(number(row.range));
         return list;
       }
+      case FieldKind::pairs: {
+        if (below(2) == 0) return std::string(row.choices.front());
+        std::vector<NamePair> pairs(1 + index(texts));
+        for (NamePair& pair : pairs) pair = {texts[index(texts)], texts[index(texts)]};
+        return pairs;
+      }
       case FieldKind::path:
         return "../" + texts[index(texts)] + ".obj";
       case FieldKind::text:
@@ -193,6 +199,9 @@ class Chance {
       drawn.material.friction = 0;
       drawn.binding.twist_form = TwistForm::servo;
     }
+    if (drawn.hierarchy.enabled) drawn.contact.pass_through = {};
+    if (drawn.hierarchy.enabled || drawn.binding.twist_form == TwistForm::open_loop)
+      drawn.binding.max_force.reset();
   }
 
   std::mt19937 random_;

@@ -296,4 +296,32 @@ TEST(ShippedScenes, TwistTurnsTheUpperBoneAboutItself) {
   EXPECT_GT(settings.binding.joint_zone, 0);
 }
 
+TEST_F(SceneTest, PairsOfNamesAreReadOrAWordInTheirPlace) {
+  const auto pass_through = [&](const std::string& value) {
+    return read(small_scene + "contact:\n  pass_through: " + value + '\n').contact.pass_through;
+  };
+  EXPECT_FALSE(read(small_scene).contact.pass_through.any());
+  EXPECT_FALSE(pass_through("none").any());
+  EXPECT_TRUE(pass_through("auto").automatic);
+  const std::vector<NamePair> pairs = {{"hand", "thigh"}, {"a:b", "c, d"}};
+  EXPECT_EQ(pass_through("[[hand, thigh], [\"a:b\", \"c, d\"]]").pairs, pairs);
+  EXPECT_EQ(read(small_scene, {"contact.pass_through=[[hand, thigh]]"}).contact.pass_through.pairs,
+            std::vector<NamePair>(1, pairs[0]));
+  for (const char* wrong :
+       {"[hand, thigh]", "[[hand]]", "[[hand, thigh, foot]]", "all", "3", "[]"}) {
+    const std::string text =
+        message(small_scene + "contact:\n  pass_through: " + std::string(wrong) + '\n');
+    EXPECT_TRUE(holds(text, "contact.pass_through")) << text;
+    EXPECT_TRUE(holds(text, ":10:")) << text;
+  }
+}
+
+TEST_F(SceneTest, GroupsNeitherPassThroughEachOtherNorAreHeldByLess) {
+  const std::string groups = small_scene + "hierarchy: {enabled: true}\n";
+  EXPECT_TRUE(holds(message(groups + "contact: {pass_through: auto}\n"), "contact.pass_through"));
+  EXPECT_TRUE(holds(message(groups + "binding: {max_force: 1}\n"), "binding.max_force"));
+  EXPECT_TRUE(holds(message(small_scene + "binding: {max_force: 1, twist_form: open_loop}\n"),
+                    "open_loop"));
+}
+
 }  // namespace sinew::scene_test

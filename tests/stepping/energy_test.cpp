@@ -51,6 +51,16 @@ TEST(Energy, BalanceClosesWhereABoneStretches) {
   EXPECT_LT(std::abs(residual(settings, 0.6)), 0.005);
 }
 
+TEST(Energy, BalanceClosesWhereHoldsYield) {
+  for (const BoneForce form : {BoneForce::paper, BoneForce::anchor}) {
+    Settings settings = bend_scene(Integrator::symplectic_euler);
+    settings.binding.force = form;
+    settings.binding.max_force = 0.02;
+    settings.tracks[0].keys[1].stretch = 1.1;
+    EXPECT_LT(std::abs(residual(settings, 0.6)), 0.005);
+  }
+}
+
 TEST(Energy, BalanceClosesForEveryDampingForm) {
   for (const DampingForm form : {DampingForm::symmetric, DampingForm::central}) {
     Settings settings = bend_scene(Integrator::symplectic_euler);

@@ -251,4 +251,22 @@ TEST(Failures, NameTheSameStepOfARunThatIsUnstable) {
   EXPECT_EQ(last_words(settings, rest, particles, step, 200), expected);
 }
 
+TEST(Steppers, TakeTheSameStepsWhereHoldsYield) {
+  for (const BoneForce form : {BoneForce::paper, BoneForce::anchor})
+    for (const double max_force : {0.02, 0.2}) {
+      Settings settings = moving_scene();
+      settings.binding.force = form;
+      settings.binding.max_force = max_force;
+      expect_same_steps(settings);
+      Settings firm = settings;
+      firm.binding.max_force.reset();
+      const Points rest = test::fcc_box(7, 7, 25, r);
+      Simulation yields = test::make_simulation(settings, rest),
+                 holds = test::make_simulation(firm, rest);
+      yields.advance(50), holds.advance(50);
+      if (max_force < 0.1)  // the other one is enough for most
+        EXPECT_GT(test::largest_distance(yields.particles(), holds.particles()), 1e-3 * r);
+    }
+}
+
 }  // namespace sinew::steppers_test

@@ -3,7 +3,20 @@
 
 #include <algorithm>
 
+#include <sinew/material/laws.h>
+
 namespace sinew {
+
+double near_at_rest(const Material& material) {
+  return std::max(rest_neighbor_range(material.pair.r), law_of(material).range(material));
+}
+
+bool pass_through(const Body& body, std::size_t a, std::size_t b) {
+  const double near = near_at_rest(body.material);
+  return body.pass_through.any() &&
+         body.pass_through.between(body.binding.bone(a), body.binding.bone(b)) &&
+         (body.rest[a] - body.rest[b]).squaredNorm() >= near * near;
+}
 
 SharedNeighbors neighbors_of(const Body& body) {
   if (body.neighbors) return body.neighbors;

@@ -11,6 +11,7 @@
 
 #include <sinew/body/bond_factors.h>
 #include <sinew/body/bone_force.h>
+#include <sinew/body/pass_through.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/rest_neighbors.h>
 #include <sinew/material/local_strength.h>
@@ -36,7 +37,8 @@ struct Body {
   std::vector<double> density = {};    ///< the same of the density
   /// Place of each particle's material in the scene's list, from 1, or 0; empty: 0 each.
   std::vector<std::int32_t> material_number = {};
-  LocalStrength local = {};  ///< of the materials of its parts
+  LocalStrength local = {};       ///< of the materials of its parts
+  PassThrough pass_through = {};  ///< bones whose flesh exerts no contact on each other
   BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
   /// Neighbors at rest, which whoever makes a body may leave with it; none: not there, or released
   /// before stepping, which needs them no more.
@@ -44,6 +46,11 @@ struct Body {
   std::shared_ptr<const World> world = {};        ///< none: nothing surrounds it
   std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
 };
+
+/// Particles nearer than this at rest, m, act on each other whatever bones hold them.
+double near_at_rest(const Material& material);
+/// Whether particles, by id, pass through each other; the same for both orders.
+bool pass_through(const Body& body, std::size_t a, std::size_t b);
 
 /// The neighbors that a body has, or else those of a search.
 SharedNeighbors neighbors_of(const Body& body);

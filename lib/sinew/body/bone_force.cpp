@@ -84,6 +84,7 @@ BoneSprings springs_of(const BindingOptions& settings, const Material& material,
   bone.damping = 2 * settings.bone_damping * std::sqrt(bone.radial * material.mass);
   bone.form = settings.force;
   bone.twist_form = settings.twist_form;
+  bone.max_force = settings.max_force.value_or(0);
   return bone;
 }
 
@@ -99,6 +100,18 @@ TwistEnergy twist_energy(double alpha) {
 
 double BoneSprings::stiffest() const {
   return form == BoneForce::anchor ? radial : std::max({radial, twist, axial});
+}
+
+double BoneSprings::yield_energy() const {
+  constexpr double twist_bound = 8 * pi * pi / 3;
+  if (max_force <= 0) return 0;
+  const double bound = form == BoneForce::anchor ? radial : radial + axial + twist_bound * twist;
+  return bound > 0 ? max_force * max_force / (2 * bound) : 0;
+}
+
+Yielding yielding(double energy, double yield_energy) {
+  if (yield_energy <= 0 || energy <= yield_energy) return {1, energy};
+  return {std::sqrt(yield_energy / energy), 2 * std::sqrt(energy * yield_energy) - yield_energy};
 }
 
 std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
@@ -139,6 +152,18 @@ Vec3 carried_foot(const Influence& influence, const Bone& bone, const BonePose& 
   return pose.frame.origin + pose.stretch * influence.foot * (pose.turn * bone.axis());
 }
 
+namespace {
+
+void yield(const BoneSprings& springs, double weight, BonePull& pull, double& stretching) {
+  if (weight <= 0) return;
+  const auto [slope, energy] = yielding(pull.energy / weight, springs.yield_energy());
+  for (Vec3* force : {&pull.spring, &pull.radial, &pull.twist, &pull.axial}) *force *= slope;
+  stretching *= slope;
+  pull.energy = weight * energy;
+}
+
+}  // namespace
+
 BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const Bone& bone,
                    const BonePose& pose, const ParticleState& particle) {
   const Carried carried = carry(influence, bone, pose, particle.rest);
@@ -162,6 +187,7 @@ BonePull bone_pull(const BoneSprings& springs, const Influence& influence, const
     add(pull.twist, twist(springs, pose, carried, particle), 0);
     add(pull.axial, axial(springs.axial, pose.axis(), particle.position - carried.target), level);
   }
+  if (springs.max_force > 0) yield(springs, influence.weight, pull, stretching);
   const Vec3 carried_by = pose.velocity_at(anchored ? carried.target : particle.position);
   pull.damping = -influence.weight * springs.damping * (particle.velocity - carried_by);
   const Vec3 bone_velocity = pose.velocity_at(particle.position);

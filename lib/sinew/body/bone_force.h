@@ -25,9 +25,21 @@ struct BoneSprings {
   double damping = 0;  ///< kg/s
   BoneForce form = BoneForce::paper;
   TwistForm twist_form = TwistForm::servo;
+  double max_force = 0;  ///< of all three on a particle, N: see yielding(); 0: they never yield
 
-  double stiffest() const;  ///< N/m
+  double stiffest() const;      ///< N/m
+  double yield_energy() const;  ///< J; 0: they never yield
 };
+
+/// Springs that yield: of energy U0 up to Y, then of 2 sqrt(U0 Y) - Y, whose slope in U0 is
+/// sqrt(Y / U0). With Y = F^2 / (2 K) their force is at most F, since that of U0 is at most
+/// sqrt(2 K U0): the square of each spring's own is at most 2 k U, that of the twist's, near the
+/// axis and at half a turn, 8 pi^2 / 3 times as much, and K is the sum of all (Cauchy-Schwarz).
+struct Yielding {
+  double slope;   ///< factor on the force
+  double energy;  ///< J
+};
+Yielding yielding(double energy, double yield_energy);
 
 /// The springs of every bone: stiffness E V0 / A of a bone's cross-section A, so that strengths
 /// keep their meaning when radius, size or modulus change. Damping is 2 zeta sqrt(radial mass).

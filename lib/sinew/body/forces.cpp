@@ -91,26 +91,64 @@ double bone_energy(const Particles& particles, const Body& body, const Pose& pos
                       });
 }
 
-void pair_forces(const Particles& particles, const Material& material, Forces& forces) {
-  const PairForce& pair = material.pair;
-  const CellGrid cells = cells_of(particles, pair.b);
-  const auto for_each_partner = [&](std::size_t i, auto&& visit) {
+namespace {
+
+/// Calls visit(j, offset, d) for every j that acts on i by eq. 1.
+struct AllNear {
+  const Particles& particles;
+  double range;
+  const Body* body = nullptr;  ///< some particles of which pass through each other
+  CellGrid cells = cells_of(particles, range);
+
+  template <class Visit>
+  void of(std::size_t i, const Visit& visit) const {
     for_each_neighbor(
-        particles, cells, pair.b, i,
-        [&](std::uint32_t j, const Vec3& offset, double d) { visit(j, offset, d, pair.force(d)); });
+        particles, cells, range, i, [&](std::uint32_t j, const Vec3& offset, double d) {
+          if (body == nullptr || !pass_through(*body, static_cast<std::size_t>(particles.id[i]),
+                                               static_cast<std::size_t>(particles.id[j])))
+            visit(j, offset, d);
+        });
+  }
+};
+
+const Body* if_it_passes(const Body& body) { return body.pass_through.any() ? &body : nullptr; }
+
+void forces_of(const AllNear& near, const Material& material, Forces& forces) {
+  const auto for_each_partner = [&](std::size_t i, auto&& visit) {
+    near.of(i, [&](std::uint32_t j, const Vec3& offset, double d) {
+      visit(j, offset, d, material.pair.force(d));
+    });
   };
-  pair_pass(particles, material, for_each_partner, forces);
+  pair_pass(near.particles, material, for_each_partner, forces);
 }
 
-double pair_energy(const Particles& particles, const PairForce& pair) {
-  const CellGrid cells = cells_of(particles, pair.b);
-  return sum_over_particles(particles.size(), [&](std::size_t i) {
+double energy_of(const AllNear& near, const PairForce& pair) {
+  return sum_over_particles(near.particles.size(), [&](std::size_t i) {
     double sum = 0;
-    for_each_neighbor(particles, cells, pair.b, i, [&](std::uint32_t, const Vec3&, double d) {
+    near.of(i, [&](std::uint32_t, const Vec3&, double d) {
       sum += pair.potential(d) / 2;  // half for each of the two
     });
     return sum;
   });
+}
+
+}  // namespace
+
+void pair_forces(const Particles& particles, const Material& material, Forces& forces) {
+  forces_of({particles, material.pair.b}, material, forces);
+}
+
+void pair_forces(const Particles& particles, const Body& body, Forces& forces) {
+  forces_of({particles, body.material.pair.b, if_it_passes(body)}, body.material, forces);
+}
+
+double pair_energy(const Particles& particles, const PairForce& pair) {
+  return energy_of({particles, pair.b}, pair);
+}
+
+double pair_energy(const Particles& particles, const Body& body) {
+  const PairForce& pair = body.material.pair;
+  return energy_of({particles, pair.b, if_it_passes(body)}, pair);
 }
 
 }  // namespace sinew

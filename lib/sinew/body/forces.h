@@ -38,6 +38,8 @@ struct Forces {
 
 /// Pair forces and damping, found with the paper's cells. Fills pair, damping and neighbors.
 void pair_forces(const Particles& particles, const Material& material, Forces& forces);
+/// The same between particles of a body that do not pass through each other.
+void pair_forces(const Particles& particles, const Body& body, Forces& forces);
 
 /// Bone forces at `pose`. Fills bone, bone_damping and the powers.
 void bone_forces(const Particles& particles, const Body& body, const Pose& pose, Forces& forces);
@@ -73,6 +75,7 @@ std::vector<Reaction> reactions(const Particles& particles, const Points& pulls,
 
 /// Stored energies, J.
 double pair_energy(const Particles& particles, const PairForce& pair);
+double pair_energy(const Particles& particles, const Body& body);
 double bone_energy(const Particles& particles, const Body& body, const Pose& pose);
 
 }  // namespace sinew

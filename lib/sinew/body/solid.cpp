@@ -109,9 +109,10 @@ LocalStrength in_order(const LocalStrength& local, std::span<const std::int32_t>
 }  // namespace
 
 Solid::Solid(const Material& material, Points rest, std::span<const std::int32_t> id,
-             const BondFactors& factors, const LocalStrength& local)
+             const BondFactors& factors, const LocalStrength& local, Passing passing)
     : material_(material),
       law_(&law_of(material)),
+      pass_(std::move(passing)),
       rest_(std::move(rest)),
       bonds_(make_bonds(rest_,
                         rest_neighbors(rest_, material.pair.r, material.bond.second > 0).all(),
@@ -158,7 +159,8 @@ void Solid::for_each_touched(const Particles& particles, const CellGrid& cells, 
                              const Visit& visit) const {
   for_each_neighbor(particles, cells, law_->range(material_), i,
                     [&](std::uint32_t j, const Vec3& offset, double d) {
-                      if (!bonds_.nearest.bonded(i, j)) visit(j, offset, d);
+                      if (!bonds_.nearest.bonded(i, j) && !(pass_ && pass_(i, j)))
+                        visit(j, offset, d);
                     });
 }
 

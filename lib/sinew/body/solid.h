@@ -24,6 +24,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -109,9 +110,12 @@ bool remembers_neighbors(const Material& material);
 
 class Solid {
  public:
+  /// Whether particles, by their place in the order, pass through each other; empty: none do.
+  using Passing = std::function<bool(std::size_t, std::size_t)>;
+
   /// `rest` in the order of the particles, m; `id` and `factors` as in make_bonds(); `local` by id.
   Solid(const Material& material, Points rest, std::span<const std::int32_t> id = {},
-        const BondFactors& factors = {}, const LocalStrength& local = {});
+        const BondFactors& factors = {}, const LocalStrength& local = {}, Passing passing = {});
 
   /// Returns the branches of its bonds: what follows is of the step that began there last.
   MaxwellBranches& branches() { return branches_; }
@@ -156,6 +160,7 @@ class Solid {
 
   Material material_;
   const ForceLaw* law_;
+  Passing pass_;
   Points rest_;
   SolidBonds bonds_;
   MaxwellBranches branches_;

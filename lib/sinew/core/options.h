@@ -199,6 +199,8 @@ enum class Interpolation { step, linear, smooth, cubic };
 enum class Extrapolation { hold, loop, ping_pong };
 
 enum class Positions { replace, add };
+/// Where a body is when its motion begins; automatic: in the first pose where that is far.
+enum class Begin { rest, pose, automatic };
 
 struct MotionOptions {
   std::string file;  ///< a path, as body.mesh; none once a file of YAML has been read
@@ -210,6 +212,7 @@ struct MotionOptions {
   Extrapolation extrapolation = Extrapolation::hold;
   double speed = 1;
   std::optional<double> preroll = {};
+  Begin begin = Begin::rest;
 };
 
 struct KeyDefinition {
@@ -245,6 +248,21 @@ struct BindingOptions {
   double axial_stiffness = 0.64;
   double bone_damping = 1;
   double joint_zone = 0;
+  std::optional<double> max_force = {};
+};
+
+using NamePair = std::array<std::string, 2>;
+
+/// Bones whose flesh passes through each other: named, or found along the motion.
+struct PassThroughOptions {
+  bool automatic = false;
+  std::vector<NamePair> pairs = {};  ///< names of bones
+
+  bool any() const { return automatic || !pairs.empty(); }
+};
+
+struct ContactOptions {
+  PassThroughOptions pass_through = {};
 };
 
 enum class Integrator { symplectic_euler, explicit_euler, velocity_verlet };

@@ -292,6 +292,11 @@ void check_groupable(const Body& body) {
                     "relaxation_times");
   if (!body.density.empty())
     throw bad_input("groups are of particles of one mass", "remove density from materials");
+  if (body.pass_through.any())
+    throw bad_input("groups do not pass through each other", "set contact.pass_through to none");
+  for (const BoneSprings& springs : body.springs)
+    if (springs.max_force > 0)
+      throw bad_input("bones hold groups whatever it takes", "remove binding.max_force");
   if (body.material.friction > 0)
     throw bad_input("groups that touch each other do not rub", "remove material.friction");
   if (!body.world) return;

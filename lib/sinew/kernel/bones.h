@@ -165,6 +165,23 @@ SINEW_INLINE Pull<L> spring_pull(const BoneNow<typename L::Real>& bone, const Tr
           radial.energy + twist.energy + axial.energy};
 }
 
+/// Springs that yield: body/bone_force.h has the form. A function of its own: few bones
+/// have them.
+template <class L>
+[[gnu::noinline]] void yielding_pull(const BoneNow<typename L::Real>& bone, const Triple<L>& at,
+                                     const Attachment<L>& attachment, const Attachment<L>& at_rest,
+                                     Pull<L>& pull, typename L::V& slides) {
+  pull = spring_pull<L, true>(bone, at, attachment, at_rest, slides);
+  const typename L::V limit = L::all(bone.yield);
+  const auto beyond = L::less(limit, pull.energy);
+  if (!L::any(beyond)) return;
+  const typename L::V slope = L::pick(beyond, L::root(limit / pull.energy), L::all(1));
+  pull.force = slope * pull.force;
+  slides = slope * slides;
+  const typename L::V grown = (slope + slope) * pull.energy - limit;
+  pull.energy = L::pick(beyond, grown, pull.energy);
+}
+
 /// Velocity of the bone's point at `at` in its frame, beyond that of a rigid bone.
 template <class L>
 SINEW_INLINE Triple<L> stretching(const BoneNow<typename L::Real>& bone, typename L::V along) {
@@ -197,7 +214,11 @@ SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone,
     attachment.along = L::all(bone.stretch) * attachment.along;
   }
   typename L::V slides;
-  const Pull<L> springs = spring_pull<L, energy>(bone, at, attachment, at_rest, slides);
+  Pull<L> springs;
+  if (bone.yield > 0) [[unlikely]]
+    yielding_pull<L>(bone, at, attachment, at_rest, springs, slides);
+  else
+    springs = spring_pull<L, energy>(bone, at, attachment, at_rest, slides);
   BoneSums<L> pull;
   pull.spring = from_frame<L>(bone.frame, springs.force);
   pull.carried = carried_by<L>(bone.frame, arm);

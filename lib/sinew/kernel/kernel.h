@@ -62,9 +62,21 @@ struct Lists {
 /// were no neighbors at rest; springs between neighbors at rest and the repulsion of eq. 1 between
 /// others; the same with springs that creep, relax and break.
 /// A law of one's own has a number from pair_laws on, and a BondForce (bonds.h).
-enum PairLaw : int { between_all, among_neighbors, springs, changing_springs, pair_laws };
+/// The last: eq. 1 between those of all that lists give lanes.
+enum PairLaw : int {
+  between_all,
+  among_neighbors,
+  springs,
+  changing_springs,
+  between_listed,
+  pair_laws
+};
 /// Whether neighbors at rest are bonds, whose far ends need lists of stiffness and length.
-constexpr bool is_bonded(PairLaw law) { return law != between_all && law != among_neighbors; }
+constexpr bool is_bonded(PairLaw law) {
+  return law != between_all && law != among_neighbors && law != between_listed;
+}
+/// Whether it is eq. 1 whatever was near at rest.
+constexpr bool has_no_memory(PairLaw law) { return law == between_all || law == between_listed; }
 
 /// Eq. 2 towards the mean velocity of the neighbors; or pair by pair, with the mean of both
 /// particles' inverse counts of neighbors.
@@ -96,6 +108,7 @@ template <class Real>
 struct BoneNow {
   FrameNow<Real> frame;
   Real radial, twist, axial, damping;
+  Real yield;  ///< twice the energy beyond which they yield; 0: they never do
   BonePulls pulls;
   Real turning;       ///< of open loop: twist times the angle
   Real center;        ///< of the frame, along the bone at rest

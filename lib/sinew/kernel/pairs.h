@@ -230,21 +230,44 @@ struct Adder {
   SINEW_INLINE PairSums<L> sums() const { return {{fx, fy, fz}, {su, sv, sw}, count, stored}; }
 };
 
-/// The sums over the differences [begin, end); `least` becomes the least squared distance.
+/// The differences of a list, for all lanes.
+template <class L>
+struct Differences {
+  const std::int32_t *begin, *end;
+
+  SINEW_INLINE typename L::V of_lanes(const std::int32_t*, typename L::V squared) const {
+    return squared;
+  }
+};
+
+/// Differences that are each for some lanes: to the others nothing is near.
+template <class L>
+struct DifferencesOfLanes {
+  const std::int32_t *begin, *end;
+  const std::uint16_t* lanes;
+  int lane;
+  typename L::V far;
+
+  SINEW_INLINE typename L::V of_lanes(const std::int32_t* difference, typename L::V squared) const {
+    const std::uint32_t own = static_cast<std::uint32_t>(lanes[difference - begin]) >> lane;
+    return L::pick(L::mask(own), squared, far);
+  }
+};
+
+/// The sums over differences; `least` becomes the least squared distance.
 /// `careful` handles all distances; without it, those for which `law` needs no care.
-template <class L, Pass pass, bool energy, bool careful>
+template <class L, Pass pass, bool energy, bool careful, class List>
 SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const PullLaw<L>& law,
-                                   std::ptrdiff_t i, const std::int32_t* begin,
-                                   const std::int32_t* end, typename L::V& least) {
+                                   std::ptrdiff_t i, const List& list, typename L::V& least) {
   using V = typename L::V;
   const Place<L> here = load_place<L>(step.before.x, i);
   const V b2 = L::all(step.law.b2);
   Adder<L, pass, energy> adder;
   V closest = b2;
-  for (const std::int32_t* difference = begin; difference != end; ++difference) {
+  for (const std::int32_t* difference = list.begin; difference != list.end; ++difference) {
     const std::ptrdiff_t j = i + *difference;
     Triple<L> apart = offset<L>(here, load_place<L>(step.before.x, j));
-    const V squared = squared_distance<L>(apart);
+    const V squared = list.of_lanes(difference, squared_distance<L>(apart));
     const auto near = L::less(squared, b2);
     if (!L::any(near)) continue;
     closest = L::smaller(squared, closest);
@@ -259,13 +282,12 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
 
 /// A function of its own, so that the fast path keeps its values in registers. Whether care was
 /// needed.
-template <class L, Pass pass>
+template <class L, Pass pass, class List>
 [[gnu::noinline]] bool sum_pairs_carefully(const Step<typename L::Real>& step, std::ptrdiff_t i,
-                                           const std::int32_t* begin, const std::int32_t* end,
-                                           PairSums<L>& sums) {
+                                           List list, PairSums<L>& sums) {
   const PullLaw<L> law(step.law);
   typename L::V least;
-  const PairSums<L> careful = sum_pairs<L, pass, false, true>(step, law, i, begin, end, least);
+  const PairSums<L> careful = sum_pairs<L, pass, false, true>(step, law, i, list, least);
   sums.force = {careful.force.x, careful.force.y, careful.force.z};
   sums.velocities = {careful.velocities.x, careful.velocities.y, careful.velocities.z};
   sums.count = careful.count;
@@ -297,20 +319,19 @@ SINEW_INLINE void sum_with_care(const Step<typename L::Real>& step, std::ptrdiff
 }
 
 /// With energies, what is probed and not stepped, always with care.
-template <class L, Pass pass, bool energy>
+template <class L, Pass pass, bool energy, class List>
 SINEW_INLINE PairSums<L> pair_sums(const Step<typename L::Real>& step, const PullLaw<L>& law,
-                                   std::ptrdiff_t i, const std::int32_t* begin,
-                                   const std::int32_t* end) {
+                                   std::ptrdiff_t i, const List& list) {
   typename L::V least;
   PairSums<L> sums;
   sum_with_care<L, pass, energy>(
       step, i, sums,
       [&]() __attribute__((always_inline)) {
-        sums = sum_pairs<L, pass, energy, energy>(step, law, i, begin, end, least);
+        sums = sum_pairs<L, pass, energy, energy>(step, law, i, list, least);
         return law.needs_care(least, sums.force.x);
       },
       [&](PairSums<L> & all) __attribute__((always_inline)) {
-        return sum_pairs_carefully<L, pass>(step, i, begin, end, all);
+        return sum_pairs_carefully<L, pass>(step, i, list, all);
       });
   return sums;
 }

@@ -38,11 +38,11 @@ struct Forces {
 
 /// What a law needs in all lanes.
 template <class L, PairLaw pairs>
-using LawOf = std::conditional_t<pairs == between_all, PullLaw<L>, SolidLaw<L>>;
+using LawOf = std::conditional_t<has_no_memory(pairs), PullLaw<L>, SolidLaw<L>>;
 
 template <class L, PairLaw pairs>
 SINEW_INLINE LawOf<L, pairs> law_of(const Step<typename L::Real>& step) {
-  if constexpr (pairs == between_all)
+  if constexpr (has_no_memory(pairs))
     return PullLaw<L>(step.law);
   else
     return SolidLaw<L>(step);
@@ -51,14 +51,21 @@ SINEW_INLINE LawOf<L, pairs> law_of(const Step<typename L::Real>& step) {
 template <class L, PairLaw pairs, Pass pass, bool energy>
 SINEW_INLINE PairSums<L> sums_of(const Step<typename L::Real>& step, const LawOf<L, pairs>& law,
                                  std::size_t block, int lane, bool& strained) {
-  if constexpr (pairs != between_all) {
+  if constexpr (!has_no_memory(pairs)) {
     return partner_sums<L, pairs, pass, energy>(step, law, block, lane, strained);
   } else {
     const std::ptrdiff_t i =
         static_cast<std::ptrdiff_t>(block) * Traits<typename L::Real>::block + lane;
     const Lists& lists = step.lists[block / blocks_per_piece];
     const std::uint32_t* first = lists.first + block % blocks_per_piece;
-    return pair_sums<L, pass, energy>(step, law, i, lists.value + first[0], lists.value + first[1]);
+    if constexpr (pairs == between_all)
+      return pair_sums<L, pass, energy>(
+          step, law, i, Differences<L>{lists.value + first[0], lists.value + first[1]});
+    else
+      return pair_sums<L, pass, energy>(
+          step, law, i,
+          DifferencesOfLanes<L>{lists.value + first[0], lists.value + first[1],
+                                lists.lanes + first[0], lane, L::all(step.law.b2)});
   }
 }
 

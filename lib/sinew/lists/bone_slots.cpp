@@ -206,7 +206,7 @@ std::vector<kernel::BoneNow<Real>> bones_now(const Body& body, const Pose& pose,
                                              std::span<const double> center, double mass,
                                              const Units& units) {
   std::vector<kernel::BoneNow<Real>> bones(pose.size());
-  const double spring = units.time * units.time / mass;
+  const double spring = units.time * units.time / mass, length2 = units.length * units.length;
   for (std::size_t b = 0; b < pose.size(); ++b) {
     const Vec3 at = pose[b].frame.origin + pose[b].stretch * center[b] * pose[b].axis();
     const BoneSprings& springs = body.springs[b];
@@ -215,6 +215,7 @@ std::vector<kernel::BoneNow<Real>> bones_now(const Body& body, const Pose& pose,
     bones[b].twist = static_cast<Real>(springs.twist * spring);
     bones[b].axial = static_cast<Real>(springs.axial * spring);
     bones[b].damping = static_cast<Real>(springs.damping * units.time / mass);
+    bones[b].yield = static_cast<Real>(2 * springs.yield_energy() * spring / length2);
     bones[b].pulls = pulls_of(springs);
     bones[b].turning = static_cast<Real>(springs.twist * pose[b].twist * spring);
     bones[b].center = static_cast<Real>(center[b] / units.length);

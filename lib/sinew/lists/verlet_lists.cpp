@@ -47,11 +47,17 @@ VerletLists<Real> VerletLists<Real>::cleared(double step) const {
   VerletLists lists;
   lists.kernel_ = kernel_;
   lists.contacts_ = contacts_;
+  lists.passing_ = passing_;
   lists.looks_ = looks_;
   lists.wanted_ = wanted_;
   lists.step_ = step;
   lists.counts_ = counts_;
   return lists;
+}
+
+template <class Real>
+void VerletLists<Real>::let_pass(const Body& body, std::span<const std::int32_t> id) {
+  passing_ = PassingPairs(body, id);
 }
 
 template <class Real>
@@ -301,8 +307,9 @@ void VerletLists<Real>::list(BlockState<Real>& state, const BondLists<Real>& bon
       outer_[piece] = near.empty()
                           ? OffsetLists{std::vector<std::uint32_t>(blocks_per_piece + 1, 0), {}, {}}
                           : find_offsets(kernel_, state, piece, near, boxes_, ranges_.outer);
-      if (contacts_) {
-        remove_bonded(bonds, piece, outer_[piece]);
+      if (contacts_) remove_bonded(bonds, piece, outer_[piece]);
+      if (passing_.any()) passing_.remove<Real>(piece, outer_[piece]);
+      if (contacts_ || passing_.any()) {
         outer_[piece] = prune_offsets(kernel_, state, piece, outer_[piece], ranges_.outer);
       }
       for_each_subpiece(piece, [&](std::uint32_t subpiece) { near_.listed(subpiece); });

@@ -25,6 +25,7 @@
 #include <sinew/lists/list_counts.h>
 #include <sinew/lists/near_pieces.h>
 #include <sinew/lists/offset_lists.h>
+#include <sinew/lists/passing_pairs.h>
 #include <sinew/lists/subpieces.h>
 #include <sinew/material/material.h>
 
@@ -36,6 +37,10 @@ class VerletLists {
   VerletLists() = default;
   /// For steps of `step` (s).
   VerletLists(const kernel::Functions<Real>& kernel, const Material& material, double step);
+
+  /// Leaves out pairs of particles that pass through each other, from the next lists on; `id` in
+  /// the kernel's order. The body must outlive the lists.
+  void let_pass(const Body& body, std::span<const std::int32_t> id);
 
   /// The inner lists, by piece.
   const kernel::Lists* arrays() const { return arrays_.data(); }
@@ -107,11 +112,12 @@ class VerletLists {
 
   kernel::Functions<Real> kernel_{};
   bool contacts_ = false;  ///< not all pairs
-  bool looks_ = false;     ///< bonds may flow
-  ListRanges wanted_;      ///< m
-  double step_ = 0;        ///< s
-  double time_ = 0;        ///< of a step, in times of the kernel
-  ListRanges ranges_;      ///< in its lengths
+  PassingPairs passing_;
+  bool looks_ = false;  ///< bonds may flow
+  ListRanges wanted_;   ///< m
+  double step_ = 0;     ///< s
+  double time_ = 0;     ///< of a step, in times of the kernel
+  ListRanges ranges_;   ///< in its lengths
 
   Subpieces of_;
   // Values by subpiece:

@@ -95,6 +95,9 @@ bool for_each_pair(const RestBody& rest, const FrameState& state,
     return state.bond_rest.empty() ||
            state.bond_rest[first + static_cast<std::size_t>(at - nearest.begin())] > 0;
   };
+  const auto passes = [&](std::uint32_t j) {
+    return rest.law.pass && rest.law.pass(static_cast<std::uint32_t>(i), j);
+  };
   bool severed = false;
   if (has_bonds)
     for_each_bond(rest, state, i, [&](const BondState& bond) {
@@ -102,7 +105,8 @@ bool for_each_pair(const RestBody& rest, const FrameState& state,
       if (bond.whole && bond.length > 0) on_bond(bond);
     });
   for (const Neighbor& other : neighbors)
-    if (other.squared < range * range && other.squared > 0 && !(has_bonds && bonded(other.index)))
+    if (other.squared < range * range && other.squared > 0 && !(has_bonds && bonded(other.index)) &&
+        !passes(other.index))
       on_other(other);
   return severed;
 }

@@ -55,6 +55,8 @@ struct ForcesOfPairs {
   std::vector<double> volume_stiffness_of = {};  ///< by particle; empty: as that
   bool bonds_change = false;  ///< they break or creep: a frame's state must contain them
   bool has_muscles = false;   ///< a frame's state must contain their stress
+  /// Whether two particles that are no neighbors at rest exert nothing on each other; empty: none.
+  std::function<bool(std::uint32_t, std::uint32_t)> pass = {};
 };
 
 /// Input: the body at rest and its constants. Particles are in the written order.

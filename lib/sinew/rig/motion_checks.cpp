@@ -246,9 +246,9 @@ void warn_of_limits(const Skeleton& skeleton, const Motion& motion, Warnings& wa
 }  // namespace
 
 std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion& motion,
-                                         double min_shift) {
+                                         double min_shift, bool posed) {
   Warnings warnings;
-  warn_of_start(skeleton, motion, min_shift, warnings);
+  if (!posed) warn_of_start(skeleton, motion, min_shift, warnings);
   warn_of_loop(skeleton, motion, min_shift, warnings);
   warn_of_steps(skeleton, motion, warnings);
   warn_of_limits(skeleton, motion, warnings);

@@ -44,7 +44,8 @@ double preroll_for(const Skeleton& skeleton, const Motion& motion);
 /// One line each, with numbers and a cure: bones that do not begin at rest without a preroll, that
 /// jump from key to key or where a loop closes, and that are clamped to their limits. Shifts below
 /// `min_shift` (m) and rotations below a degree are not reported.
+/// `posed`: the body begins where the motion does.
 std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion& motion,
-                                         double min_shift);
+                                         double min_shift, bool posed = false);
 
 }  // namespace sinew

@@ -23,7 +23,7 @@ bool any_of(const List& list, Test&& test) {
   return std::any_of(list.begin(), list.end(), test);
 }
 
-constexpr std::array<Unsupported, 14> unsupported = {{
+constexpr std::array<Unsupported, 16> unsupported = {{
     {"solver.precision", "single precision", "set it to double",
      [](const Settings& scene) { return scene.solver.precision != Precision::binary64; }},
     {"solver.neighbor_search", "the paper's cells", "set it to lists",
@@ -52,6 +52,10 @@ constexpr std::array<Unsupported, 14> unsupported = {{
        return scene.material.model == MaterialModel::bonded_volume &&
               any_of(scene.bodies, [](const auto& one) { return one.young_modulus.has_value(); });
      }},
+    {"contact.pass_through", "flesh that passes through flesh", "leave it out",
+     [](const Settings& scene) { return scene.contact.pass_through.any(); }},
+    {"binding.max_force", "bones whose holds yield", "leave it out",
+     [](const Settings& scene) { return scene.binding.max_force.has_value(); }},
     {"material.friction", "friction of a body on itself", "leave it out",
      [](const Settings& scene) { return scene.material.friction > 0; }},
     {"world.obstacles", "obstacles of meshes", "choose another shape",

@@ -24,6 +24,8 @@ RestBody measured_rest(const Body& body, const Triangles& surface, SharedNeighbo
   input.positions = body.rest;
   input.surface = surface;
   input.bone = bones_of_particles(body);
+  input.law.pass =
+      passing_by(body.pass_through, input.bone, body.rest, near_at_rest(body.material));
   return rest_body(std::move(input));
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include <sinew/core/dataset.h>
@@ -357,6 +358,16 @@ ForcesOfPairs pair_law(const Material& material) {
   return measured;
 }
 
+std::function<bool(std::uint32_t, std::uint32_t)> passing_by(const PassThrough& pairs,
+                                                             std::vector<int> bone, Points rest,
+                                                             double near_at_rest) {
+  if (!pairs.any()) return {};
+  return [pairs, bone = std::move(bone), rest = std::move(rest), near_at_rest](std::uint32_t i,
+                                                                               std::uint32_t j) {
+    return pairs.between(bone[i], bone[j]) && (rest[i] - rest[j]).norm() >= near_at_rest;
+  };
+}
+
 RestInput measured_body(const Material& material, const Skeleton& skeleton) {
   RestInput input;
   for (const Bone& bone : skeleton.bones)
@@ -369,6 +380,26 @@ RestInput measured_body(const Material& material, const Skeleton& skeleton) {
 }
 
 namespace {
+
+/// The bones whose flesh passed through each other in a run, as its record names them.
+PassThrough passing_of(const RunFiles& run) {
+  const nlohmann::ordered_json record = read_record(run.folder);
+  std::vector<PassThrough::Pair> pairs;
+  const auto index = [&](const nlohmann::ordered_json& name) {
+    const auto& bones = run.skeleton.bones;
+    const auto at = std::find_if(bones.begin(), bones.end(),
+                                 [&](const Bone& bone) { return name == bone.name; });
+    return at == bones.end() ? no_bone : static_cast<int>(at - bones.begin());
+  };
+  const auto found = record.find("pass_through");
+  if (found == record.end() || !found->is_array()) return {};
+  for (const auto& pair : *found) {
+    if (!pair.is_array() || pair.size() != 2) continue;
+    const int a = index(pair[0]), b = index(pair[1]);
+    if (a != no_bone && b != no_bone) pairs.push_back({a, b});
+  }
+  return {run.skeleton.size(), pairs};
+}
 
 /// The layers of the particles that frames contain, in the whole body.
 std::vector<std::int32_t> layers_of_part(const RunFiles& run) {
@@ -403,6 +434,9 @@ RestInput measured_body(const RunFiles& run) {
   input.surface = run.surface;
   input.bone.assign(run.body.bone->begin(), run.body.bone->end());
   if (run.body.weight) input.weight = *run.body.weight;
+  if (run.ids.empty() && run.settings.contact.pass_through.any())
+    input.law.pass =
+        passing_by(passing_of(run), input.bone, input.positions, near_at_rest(run.material));
   return input;
 }
 

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <sinew/body/bond_factors.h>
+#include <sinew/body/pass_through.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/series.h>
@@ -52,6 +54,12 @@ struct RunFiles {
 /// of different times. Frames that some of the series lack (of a run in progress or interrupted, or
 /// by output.every) are left out, and so are particles that frames do not contain (output.region).
 RunFiles open_run(const RunFolder& folder);
+
+/// Which particles, by id, exert nothing on each other; empty: all do. Of copies of what it is
+/// given.
+std::function<bool(std::uint32_t, std::uint32_t)> passing_by(const PassThrough& pairs,
+                                                             std::vector<int> bone, Points rest,
+                                                             double near_at_rest);
 
 /// All data of one frame, in the written order.
 struct RunFrame {

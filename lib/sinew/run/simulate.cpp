@@ -138,6 +138,7 @@ class Run {
                       std::move(prepared.probes),
                       prepared.body.neighbors,
                       std::move(cells)};
+    if (state) prepared.beginning = {};  // it is at another moment
     simulation_.emplace(start(std::move(prepared)));
     prepared = Prepared();  // millions of numbers that nobody needs any more
     if (!schedule_.relaxes && !options_.engine) watch_frames();
@@ -424,6 +425,9 @@ void say_what_is_doubtful(const Prepared& prepared, const SimulateOptions& optio
     say(options, "step " + three_digits(prepared.steps.step) + " s, " +
                      three_digits(prepared.steps.factor()) + " of the stability limit " +
                      three_digits(prepared.steps.limit) + " s");
+  if (prepared.beginning.posed) say(options, prepared.beginning.why);
+  if (!prepared.passing.empty())
+    say(options, "flesh passes through flesh: " + intrusions_text(prepared.passing, prepared.body));
   const double speed = farthest_carried(prepared);
   std::vector<std::string> warnings = fill_warnings(prepared.filled);
   for (std::string& warning : warnings_of(prepared, speed)) warnings.push_back(std::move(warning));

@@ -224,8 +224,8 @@ Touching meeting(const Body& body, const Pose& pose, const std::vector<Particle>
     for (const Particle other : near.of(k)) {
       const Particle i = outer[k], j = outer[other];
       const int a = body.binding.bone(i), b = body.binding.bone(j);
-      if (other > k && !holds(body.skeleton, a, b) && !holds(body.skeleton, b, a) &&
-          (body.rest[i] - body.rest[j]).norm() > apart * range)
+      if (other > k && !body.pass_through.between(a, b) && !holds(body.skeleton, a, b) &&
+          !holds(body.skeleton, b, a) && (body.rest[i] - body.rest[j]).norm() > apart * range)
         touching.add(a, b, i, j);
     }
   return touching;

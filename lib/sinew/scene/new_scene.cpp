@@ -15,6 +15,7 @@
 #include <sinew/core/union_find.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/pack.h>
+#include <sinew/material/laws.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/winding.h>
@@ -242,6 +243,19 @@ void choose_binding(BindingOptions& binding, bool hollow) {
   if (binding.method == BindMethod::nearest && !hollow) binding.method = BindMethod::inside;
 }
 
+/// Clips are made without flesh, which they drive into other flesh.
+void choose_contacts(Settings& settings) {
+  const double r = *settings.body.radius;
+  const Material material =
+      make_material(settings.material, {r, settings.material.density * volume_per_particle(r),
+                                        lattice_axes(settings.body), settings.body.packing});
+  const ForceLaw& law = law_of(material);
+  settings.binding.max_force =
+      three_figures(law.has_bonds ? law.bond_force(material, {2 * r, material.bond.stiffness}, r)
+                                  : law.force(material, r));
+  settings.contact.pass_through.automatic = true;
+}
+
 }  // namespace
 
 NewScene new_scene(const NewSceneFiles& files) {
@@ -262,6 +276,7 @@ NewScene new_scene(const NewSceneFiles& files) {
     choices.hollow = false;
   choose_material(surface, choices);
   choose_binding(settings.binding, choices.hollow);
+  if (settings.motion.begin == Begin::automatic) choose_contacts(settings);
   NewScene made;
   refine_mesh(files.scene, surface, choices, made);
   made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());

@@ -115,9 +115,11 @@ std::string clip_text(const NewChoices& choices) {
   }
   if (!s.motion.clip.empty()) text += key_text(s, "motion", "clip");
   if (s.motion.start > 0) text += key_text(s, "motion", "start");
-  if (s.motion.preroll.value_or(0) > 0)
-    text += note("The clip does not begin at rest: the bones first move to its first pose.") +
-            key_text(s, "motion", "preroll");
+  if (s.motion.begin == Begin::automatic)
+    text += note(
+                "Where the clip begins far from rest, the body begins in its first pose; else the "
+                "bones first move there.") +
+            key_text(s, "motion", "begin");
   return text.empty() ? "" : "\nmotion:\n" + text;
 }
 
@@ -150,6 +152,13 @@ std::string binding_text(const NewChoices& choices) {
   text += note("Four times the usual hold: thin limbs follow closely.");
   for (const char* name : {"stiffness", "twist_stiffness", "axial_stiffness"})
     text += key_text(s, "binding", name);
+  if (s.binding.max_force)
+    text += note("As much as pushes neighbors to half their distance: holds yield beyond.") +
+            key_text(s, "binding", "max_force");
+  if (s.contact.pass_through.any())
+    text += "\ncontact:\n" +
+            note("Limbs that the clip drives into each other pass through each other.") +
+            key_text(s, "contact", "pass_through");
   return text;
 }
 

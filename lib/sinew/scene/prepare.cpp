@@ -13,6 +13,7 @@
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>
+#include <sinew/scene/first_pose.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/groups.h>
 #include <sinew/scene/particle_parts.h>
@@ -124,6 +125,23 @@ std::vector<std::string> warnings_of(const SceneFiles& files) {
 
 }  // namespace
 
+namespace {
+
+/// The pairs that the scene names.
+PassThrough named_passing(const Settings& settings, const Skeleton& skeleton) {
+  const std::string key = "contact.pass_through";
+  std::vector<PassThrough::Pair> pairs;
+  for (const auto& [a, b] : settings.contact.pass_through.pairs) {
+    if (a == b)
+      throw bad_input(settings.place(key), "bone " + shown(a) + " is paired with itself",
+                      "name two bones");
+    pairs.push_back({bone_of(settings, key, skeleton, a), bone_of(settings, key, skeleton, b)});
+  }
+  return {skeleton.size(), pairs};
+}
+
+}  // namespace
+
 Material material_of(const Settings& settings, const Particles& particles) {
   MaterialOptions options = settings.material;
   // Groups that bend rest on eq. 2, which is zero within them.
@@ -164,6 +182,7 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.factors.stiffest = std::max(body.factors.stiffest, stiffest_volume(body));
   set_damping_ratio(settings, body);
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
+  body.pass_through = named_passing(settings, body.skeleton);
   return body;
 }
 
@@ -203,6 +222,23 @@ void set_groups(Prepared& prepared) {
         groups_that_stay(prepared.settings, prepared.body, prepared.motion, *sizes);
 }
 
+/// Chooses the bones whose flesh passes through each other.
+void let_pass(Prepared& prepared) {
+  Body& body = prepared.body;
+  if (prepared.settings.contact.pass_through.automatic) {
+    std::vector<PassThrough::Pair> pairs;
+    for (const Intrusion& one : intrusions_of(prepared)) {
+      if (one.depth <= passing_depth * body.material.pair.r) continue;
+      prepared.passing.push_back(one);
+      pairs.push_back(one.bones);
+    }
+    body.pass_through = PassThrough(body.skeleton.size(), pairs);
+  } else {
+    for (const PassThrough::Pair& pair : body.pass_through.pairs())
+      prepared.passing.push_back({pair});
+  }
+}
+
 /// Binds the particles to the bones, in their world.
 void bind(const SceneFiles& files, const ForceLaw* law, Prepared& prepared) {
   const Settings& settings = prepared.settings;
@@ -216,10 +252,12 @@ void bind(const SceneFiles& files, const ForceLaw* law, Prepared& prepared) {
   prepared.motion = std::move(rig.motion);
   hold_stretched(prepared.motion, prepared.body.skeleton, prepared.body.material,
                  prepared.body.springs);
+  prepared.beginning = begin_of(settings, prepared.body, prepared.motion);
   prepared.file_warnings = settings.warnings;
   for (const std::string& warning : warnings_of(files)) prepared.file_warnings.push_back(warning);
   prepared.joint_zone = settings.binding.joint_zone;
   prepared.weights_given = settings.binding.method == BindMethod::file;
+  let_pass(prepared);
   set_groups(prepared);
   if (!is_static(settings)) return;
   refuse_free(settings, prepared.body);
@@ -285,6 +323,9 @@ Prepared prepare(Scene scene) {
 Simulation start(const Prepared& prepared) { return start(Prepared(prepared)); }
 
 Simulation start(Prepared&& prepared) {
+  if (prepared.beginning.posed && !prepared.motion.tracks.empty())
+    prepared.filled.particles =
+        posed(prepared.body, prepared.motion, prepared.filled.particles, prepared.settings.solver);
   prepared.body.neighbors.reset();  // stepping has lists of its own
   Simulation simulation(std::move(prepared.body), std::move(prepared.motion),
                         std::move(prepared.filled.particles),
@@ -295,6 +336,13 @@ Simulation start(Prepared&& prepared) {
     simulation.follow(std::move(prepared.plan));
   if (prepared.dynamic_groups) simulation.enable_dynamic_groups(*prepared.dynamic_groups);
   return simulation;
+}
+
+std::vector<Intrusion> intrusions_of(const Prepared& prepared) {
+  std::vector<double> times;
+  for (int frame = 0; frame <= prepared.frames.count; ++frame)
+    times.push_back(prepared.frames.at(frame));
+  return intrusions(prepared.body, prepared.motion, times);
 }
 
 std::vector<std::int32_t> bones_of_particles(const Body& body) {

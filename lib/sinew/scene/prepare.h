@@ -16,6 +16,8 @@
 #include <sinew/groups/make_grouping.h>
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
+#include <sinew/scene/first_pose.h>
+#include <sinew/scene/intrusions.h>
 #include <sinew/scene/machine.h>
 #include <sinew/scene/scene_files.h>
 #include <sinew/scene/steps.h>
@@ -70,6 +72,7 @@ struct Prepared {
   std::optional<FillReport> report = {};  ///< where the mesh was filled now
   Body body;                              ///< the particles on the bones, in their world
   Motion motion;
+  Beginning beginning = {};
   StepChoice steps;
   std::vector<double> bone_speeds;  ///< before each frame, as bone_speeds() finds them, m/s
   StepPlan plan;
@@ -80,6 +83,8 @@ struct Prepared {
   double joint_zone = 0;       ///< in square roots of the bones' cross-section
   bool weights_given = false;  ///< by a file: they distribute rotations in their own manner
   std::vector<std::string> file_warnings = {};  ///< what its files get wrong, with their places
+  /// Flesh that passes through flesh: the pairs of body.pass_through, with what was found of them.
+  std::vector<Intrusion> passing = {};
   FrameTimes frames;
   double seconds_filling = 0, seconds_binding = 0;
 };
@@ -88,10 +93,14 @@ struct Prepared {
 /// input, with the scene's line.
 Prepared prepare(Scene scene);
 
-/// The simulation of a prepared scene, at its start.
+/// The simulation of a prepared scene, at its start. Where that is the first pose, the body is
+/// relaxed there first: leave out `beginning` for what is restored to another moment.
 Simulation start(const Prepared& prepared);
 /// The same; takes body, motion, plan and particles out of `prepared`, and copies none of them.
 Simulation start(Prepared&& prepared);
+
+/// Finds flesh that the motion drives into other flesh, at the moments of all frames.
+std::vector<Intrusion> intrusions_of(const Prepared& prepared);
 
 /// The bone with the largest weight for each particle, in the written order.
 std::vector<std::int32_t> bones_of_particles(const Body& body);

@@ -17,6 +17,7 @@
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
 #include <sinew/scene/body.h>
+#include <sinew/scene/first_pose.h>
 #include <sinew/scene/scene_files.h>
 
 namespace sinew {
@@ -113,8 +114,9 @@ void choose_clip(const Rig& rig, NewChoices& choices) {
   if (rig.clips.size() > 1) motion.clip = clip.name;
   for (std::size_t i = 1; i < rig.clips.size(); ++i)
     choices.clips.push_back(shown(rig.clips[i].name));
-  const double preroll = preroll_for(rig.skeleton, clip.motion);
-  if (preroll > 0) motion.preroll = preroll;
+  motion.begin = Begin::automatic;
+  const bool far = begins_far_from_rest(rig.skeleton, clip.motion);
+  const double preroll = far ? 0 : preroll_for(rig.skeleton, clip.motion);
   const double begin = first_key(clip.motion);
   if (begin > min_wait) motion.start = begin;
   const double length = clip.duration - motion.start, played = std::min(length, longest_clip);

@@ -320,8 +320,9 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
         " s; use symplectic_euler, or give material.damping and binding.bone_damping");
   warn_of_speed(bone_speed, warnings);
   for (const Track& track : prepared.motion.tracks) warn_of_cut(prepared, track, warnings);
-  for (std::string& warning : motion_warnings(prepared.body.skeleton, prepared.motion,
-                                              min_shift * prepared.body.material.pair.r))
+  for (std::string& warning :
+       motion_warnings(prepared.body.skeleton, prepared.motion,
+                       min_shift * prepared.body.material.pair.r, prepared.beginning.posed))
     warnings.push_back(std::move(warning));
   warn_of_groups(prepared.body.grouping.get(), warnings);
   warn_of_unit(prepared.body, warnings);

@@ -217,6 +217,21 @@ void check_clip(const Settings& settings) {
                     "give an end after motion.start");
 }
 
+void check_contact(const Settings& settings) {
+  if (settings.hierarchy.enabled && settings.contact.pass_through.any())
+    throw bad_input(settings.place("contact.pass_through"),
+                    "groups of particles do not pass through each other",
+                    "remove contact.pass_through, or set hierarchy.enabled to false");
+  if (!settings.binding.max_force) return;
+  const Place place = settings.place("binding.max_force");
+  if (settings.binding.twist_form == TwistForm::open_loop)
+    throw bad_input(place, "the twist of open_loop stores no energy by which it could yield",
+                    "remove binding.max_force, or set binding.twist_form to servo");
+  if (settings.hierarchy.enabled)
+    throw bad_input(place, "bones hold groups of particles whatever it takes",
+                    "remove binding.max_force, or set hierarchy.enabled to false");
+}
+
 /// What the static method does not know.
 void check_static(const Settings& settings) {
   const SolverSettings& solver = settings.solver;
@@ -293,6 +308,7 @@ void check_together(const Settings& settings) {
   check_bone_count(settings);
   check_axes(settings);
   check_clip(settings);
+  check_contact(settings);
   check_output(settings);
   check_box(settings, "hierarchy.free_region", settings.hierarchy.free_region);
   check_static(settings);

@@ -50,16 +50,25 @@ std::string list_text(std::span<const double> values) {
   return text + ']';
 }
 
+std::string name_text(const std::string& text) { return plain(text) ? text : quoted(text); }
+
+std::string pairs_text(const std::vector<NamePair>& pairs) {
+  std::string text;
+  for (const NamePair& pair : pairs)
+    text += (text.empty() ? "[[" : ", [") + name_text(pair[0]) + ", " + name_text(pair[1]) + ']';
+  return text + ']';
+}
+
 }  // namespace
 
 std::string scene_text(const FieldValue& value, std::string_view absent) {
   if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
   if (const auto* whole = std::get_if<int>(&value)) return std::to_string(*whole);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* text = std::get_if<std::string>(&value))
-    return plain(*text) ? *text : quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return name_text(*text);
   if (const auto* vector = std::get_if<Vec3>(&value)) return list_text({vector->data(), 3});
   if (const auto* list = std::get_if<std::vector<double>>(&value)) return list_text(*list);
+  if (const auto* pairs = std::get_if<std::vector<NamePair>>(&value)) return pairs_text(*pairs);
   return std::string(absent);
 }
 

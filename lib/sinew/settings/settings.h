@@ -231,6 +231,7 @@ struct Settings {
   MotionOptions motion;
   std::vector<TrackDefinition> tracks;  ///< section motion
   BindingOptions binding;
+  ContactOptions contact;
   WorldSettings world;
   std::vector<BoundSettings> bound;  ///< section binding, list explicit
   std::vector<LocalMaterialSettings> materials;

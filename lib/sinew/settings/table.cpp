@@ -239,8 +239,13 @@ std::vector<Field<Settings>> make_motion_section() {
       field<S>("motion", "preroll", SINEW_AT(S, motion.preroll), "s",
                "time before the clip in which the bones move smoothly from rest to its first pose; "
                "auto: 0 for tracks; for the clip of a file 1 s per 90 degrees or per half size of "
-               "the skeleton",
+               "the skeleton, or 0 where the body begins in that pose",
                not_negative),
+      choice<S>(
+          "motion", "begin", SINEW_AT(S, motion.begin), {"rest", "pose", "auto"},
+          "state of the body at the start; rest: at rest; pose: skinned into the clip's first "
+          "pose and relaxed; auto: so where a joint turns by over 90 degrees, or the way from "
+          "rest leads through the body"),
   };
 }
 
@@ -271,7 +276,34 @@ std::vector<Field<Settings>> make_binding() {
           "binding", "joint_zone", SINEW_AT(S, binding.joint_zone), "sqrt(A)",
           "length over which weights blend from one bone to the next; 0: one bone per particle",
           not_negative),
+      field<S>("binding", "max_force", SINEW_AT(S, binding.max_force), "N",
+               "bound on the force with which a bone holds a particle: its springs yield below it",
+               positive, "none"),
   };
+}
+
+std::vector<Field<Settings>> make_contact() {
+  Field<Settings> row;
+  row.section = "contact";
+  row.name = "pass_through";
+  row.kind = FieldKind::pairs;
+  row.choices = {"auto"};
+  row.absent = "none";
+  row.help =
+      "pairs of bones whose flesh exerts no contact on each other, but where it is near at rest; "
+      "auto: those whose flesh the motion drives into each other by over 1.5 radii, as check lists "
+      "them";
+  row.get = [](const Settings& settings) -> FieldValue {
+    const PassThroughOptions& given = settings.contact.pass_through;
+    if (given.automatic) return std::string("auto");
+    return given.pairs.empty() ? FieldValue() : FieldValue(given.pairs);
+  };
+  row.set = [](Settings& settings, const FieldValue& value) {
+    PassThroughOptions& given = settings.contact.pass_through = {};
+    given.automatic = std::holds_alternative<std::string>(value);
+    if (const auto* pairs = std::get_if<std::vector<NamePair>>(&value)) given.pairs = *pairs;
+  };
+  return {row};
 }
 
 std::vector<Field<Settings>> make_world() {
@@ -357,9 +389,10 @@ std::vector<Field<Settings>> make_hierarchy() {
 
 std::vector<Field<Settings>> make_settings() {
   std::vector<Field<Settings>> all;
-  for (const auto& section : {make_body(), make_material(), make_damping_and_strength(),
-                              make_skeleton_section(), make_motion_section(), make_binding(),
-                              make_world(), make_solver(), make_hierarchy(), output_rows()})
+  for (const auto& section :
+       {make_body(), make_material(), make_damping_and_strength(), make_skeleton_section(),
+        make_motion_section(), make_binding(), make_contact(), make_world(), make_solver(),
+        make_hierarchy(), output_rows()})
     all.insert(all.end(), section.begin(), section.end());
   return all;
 }
@@ -385,9 +418,9 @@ std::span<const Field<PartOptions>> part_fields() {
 }
 
 std::span<const std::string_view> sections() {
-  static constexpr std::array<std::string_view, 9> names = {"body",   "material",  "skeleton",
-                                                            "motion", "binding",   "world",
-                                                            "solver", "hierarchy", "output"};
+  static constexpr std::array<std::string_view, 10> names = {
+      "body",    "material", "skeleton", "motion",    "binding",
+      "contact", "world",    "solver",   "hierarchy", "output"};
   return names;
 }
 

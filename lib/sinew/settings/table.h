@@ -19,11 +19,12 @@
 
 namespace sinew {
 
-enum class FieldKind { number, whole, text, path, choice, flag, vector, numbers };
+/// pairs: of names; or one of the choices.
+enum class FieldKind { number, whole, text, path, choice, flag, vector, numbers, pairs };
 
 /// The value of a field. monostate: not given, written as the field's `absent` word.
-using FieldValue =
-    std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>>;
+using FieldValue = std::variant<std::monostate, double, int, bool, std::string, Vec3,
+                                std::vector<double>, std::vector<NamePair>>;
 
 struct Range {
   double low = -std::numeric_limits<double>::infinity();

@@ -143,6 +143,26 @@ FieldValue read_vector(const Given& given) {
   return Vec3(values[0], values[1], values[2]);
 }
 
+/// The word of a choice, or a list of lists of two names.
+FieldValue read_pairs(const Given& given) {
+  const YamlNode& node = given.node;
+  if (node.kind == Kind::empty) throw wrong(given, "");
+  if (node.kind == Kind::scalar) return read_choice(given);
+  if (node.kind != Kind::list) throw wrong(given, ", not a list of pairs");
+  if (node.items.empty()) throw wrong(given, " without pairs");
+  std::vector<NamePair> pairs;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const std::string path = given.path + '[' + std::to_string(i) + ']';
+    const Given pair{node.items[i], path, given.rules};
+    if (pair.node.kind != Kind::list || pair.node.items.size() != 2)
+      throw wrong(pair, ", not a pair of names");
+    NamePair& names = pairs.emplace_back();
+    for (std::size_t k = 0; k < names.size(); ++k)
+      names[k] = read_word({pair.node.items[k], path, given.rules});
+  }
+  return pairs;
+}
+
 std::string kind_text(const Rules& rules) {
   switch (rules.kind) {
     case FieldKind::number:
@@ -162,6 +182,8 @@ std::string kind_text(const Rules& rules) {
     case FieldKind::numbers:
       return rules.count == 0 ? "a list of numbers"
                               : "a list of " + std::to_string(rules.count) + " numbers";
+    case FieldKind::pairs:
+      return "a list of pairs of names, as [[hand, thigh]], or " + listed(rules.choices);
   }
   return "";
 }
@@ -202,6 +224,8 @@ FieldValue read_value(const YamlNode& node, const std::string& path, const Rules
       return read_vector(given);
     case FieldKind::numbers:
       return read_list(given, rules.count, rules.count == 0 ? "any" : std::to_string(rules.count));
+    case FieldKind::pairs:
+      return read_pairs(given);
     case FieldKind::text:
     case FieldKind::path:
       break;

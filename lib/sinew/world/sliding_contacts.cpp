@@ -19,7 +19,7 @@ Vec3 across(const Vec3& normal, const Vec3& v) { return v - v.dot(normal) * norm
 }  // namespace
 
 SlidingContacts::SlidingContacts(const Body& body)
-    : rest_(&body.rest),
+    : body_(&body),
       friction_(body.material.friction),
       stiffness_(softer_across * body.material.pair.contact_stiffness()),
       damping_(damped_across *
@@ -29,9 +29,8 @@ SlidingContacts::SlidingContacts(const Body& body)
 }
 
 bool SlidingContacts::rub(std::int32_t a, std::int32_t b) const {
-  const Points& rest = *rest_;
-  return (rest[static_cast<std::size_t>(a)] - rest[static_cast<std::size_t>(b)]).norm() >
-         apart_at_rest_;
+  const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+  return (body_->rest[i] - body_->rest[j]).norm() > apart_at_rest_ && !pass_through(*body_, i, j);
 }
 
 /// Returns the stretch as long as it was, across the contact as it is now.

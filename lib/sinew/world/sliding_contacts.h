@@ -35,7 +35,7 @@ class SlidingContacts {
 
   bool any() const { return !stretched_.empty(); }
   /// Whether particles rub, by id, where they touch: not those that were first or second neighbors
-  /// at rest, which make up the material.
+  /// at rest, which make up the material, and not what passes through each other.
   bool rub(std::int32_t a, std::int32_t b) const;
 
   /// The friction on a particle (N) of all those that touch it, in a step (s). `keep`: the springs
@@ -55,7 +55,7 @@ class SlidingContacts {
 
   Vec3 stretch_of(std::int32_t id, const Touch& touch) const;
 
-  const Points* rest_ = nullptr;
+  const Body* body_ = nullptr;
   double friction_ = 0, stiffness_ = 0, damping_ = 0;  ///< mu, N/m, kg/s
   double apart_at_rest_ = 0;                           ///< at least, of those that rub, m
   std::vector<std::vector<Spring>> stretched_;         ///< by id

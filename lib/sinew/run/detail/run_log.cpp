@@ -139,6 +139,11 @@ void RunLog::describe(const Prepared& prepared) {
   describe(prepared.plan, prepared.frames.count);
   describe(stepper_choice(settings.solver));
   describe(prepared.body.grouping.get());
+  for (const Intrusion& one : prepared.passing)
+    record_["pass_through"].push_back(
+        {prepared.body.skeleton.bones[static_cast<std::size_t>(one.bones[0])].name,
+         prepared.body.skeleton.bones[static_cast<std::size_t>(one.bones[1])].name});
+  if (prepared.beginning.posed) record_["begins"] = "pose";
   record_["steps"] = 0;
   record_["frames"] = 0;
   record_["arrays"] = arrays_with_units();

@@ -19,7 +19,13 @@ std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
   Points rest;
   rest.reserve(particles.size());
   for (const std::int32_t id : particles.id) rest.push_back(body.rest[id]);
-  return Solid(body.material, std::move(rest), particles.id, body.factors, body.local);
+  Solid::Passing passing;
+  if (body.pass_through.any())
+    passing = [&body, id = particles.id](std::size_t i, std::size_t j) {
+      return pass_through(body, static_cast<std::size_t>(id[i]), static_cast<std::size_t>(id[j]));
+    };
+  return Solid(body.material, std::move(rest), particles.id, body.factors, body.local,
+               std::move(passing));
 }
 
 }  // namespace
@@ -151,7 +157,7 @@ void CellStepper::find_forces(const TimedPose& now) {
     solid_->branches().begin(stepping_.step);
     solid_->forces(particles_, forces_);
   } else {
-    pair_forces(particles_, body_->material, forces_);
+    pair_forces(particles_, *body_, forces_);
   }
   bone_forces(particles_, *body_, now.pose, forces_);
   forces_.world.clear();
@@ -164,7 +170,7 @@ void CellStepper::find_forces(const TimedPose& now) {
 }
 
 double CellStepper::stored_in_pairs() {
-  return solid_ ? solid_->energy(particles_) : pair_energy(particles_, body_->material.pair);
+  return solid_ ? solid_->energy(particles_) : pair_energy(particles_, *body_);
 }
 
 std::vector<std::int32_t> CellStepper::broken_bonds() const {

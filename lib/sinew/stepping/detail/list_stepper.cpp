@@ -38,8 +38,8 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       mass_(particles.mass),
       extent_(bounds(body_->rest).diagonal().norm()),
       kernel_(kernel::functions_of<Real>(instructions)),
-      law_(kernel_law(body_->material)),
-      work_(law_functions(body_->material, kernel_)),
+      law_(kernel_law(*body_)),
+      work_(law_functions(*body_, kernel_)),
       layout_(taken<Real>(*body_, particles, stepping.step)),
       bonds_(bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units())),
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
@@ -58,6 +58,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
 template <class Real>
 void ListStepper<Real>::find_slots() {
   slots_ = bone_slots<Real>(*body_, layout_.id(), layout_.units());
+  lists_.let_pass(*body_, layout_.id());
   surroundings_.set_order(layout_.id());
   groups_.set_order(layout_.id(), bonds_, !strain_.empty());
   counted_ = false;
@@ -308,8 +309,7 @@ Subpieces ListStepper<Real>::subpieces() const {
 /// resumed there, would change nothing.
 template <class Real>
 bool ListStepper<Real>::order_check_due() {
-  return law_ == kernel::between_all && !groups_.any() &&
-         steps_ % steps_between_order_checks == 0 &&
+  return has_no_memory(law_) && !groups_.any() && steps_ % steps_between_order_checks == 0 &&
          std::exchange(order_checked_, steps_) != steps_;
 }
 
@@ -322,6 +322,7 @@ void ListStepper<Real>::sort() {
   VerletLists<Real> before = std::exchange(lists_, lists_.cleared(stepping_.step));
   const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
+  lists_.let_pass(*body_, layout_.id());
   lists_.make_some(layout_.now, subpieces(), bonds_, layout_.units());
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);

@@ -100,6 +100,9 @@ std::string why_not_newton(const Body& body, const Stepping& stepping) {
   if (bonds_change(body.material) || !body.local.breaking.empty() || !body.local.yield.empty())
     return "bonds break or flow";
   if (body.material.friction > 0) return "parts of the body rub";
+  if (body.pass_through.any()) return "parts of the body pass through each other";
+  for (const BoneSprings& springs : body.springs)
+    if (springs.max_force > 0) return "the holds of bones yield";
   if (stepping.precision == Precision::binary32) return "single precision hides the tangent";
   return body.world ? why_not_in(*body.world) : "";
 }

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/first_pose.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <sinew/analysis/time_step.h>
+#include <sinew/core/error.h>
+#include <sinew/core/text.h>
+#include <sinew/rig/motion_checks.h>
+#include <sinew/scene/intrusions.h>
+#include <sinew/scene/steps.h>
+#include <sinew/scene/world.h>
+#include <sinew/stepping/equilibrium.h>
+#include <sinew/stepping/simulation.h>
+
+namespace sinew {
+namespace {
+
+constexpr double at_rest = 1, left_rest = 10;  // degrees that a bone turns from rest
+constexpr double far_from_rest = 90;           // the same
+constexpr int moments_of_way = 8;
+constexpr double residual = 1e-3;
+constexpr std::int64_t max_iterations = 3000;
+
+/// Motion without preroll, whose time 0 is that of the clip's start.
+Motion from_start(Motion motion) {
+  motion.preroll = 0;
+  return motion;
+}
+
+/// The largest turn of a bone from rest on its parent at the start of a clip, degrees.
+double largest_turn(const Skeleton& skeleton, const Motion& motion) {
+  double most = 0;
+  for (const LocalMotion& one : local_motions(skeleton, from_start(motion), 0))
+    most = std::max(most, rotation_vector(one.rotation).norm() + std::abs(one.twist));
+  return degrees(most);
+}
+
+/// The first key after the start of a clip, s of the clip; none: infinite.
+double second_key(const Motion& motion) {
+  constexpr double same = 1e-6;  // s
+  double second = std::numeric_limits<double>::infinity();
+  for (const Track& track : motion.tracks)
+    for (const auto* times : {&track.rotation.times, &track.twist.times, &track.translation.times})
+      for (const double time : *times)
+        if (time > motion.start + same) second = std::min(second, time);
+  return second;
+}
+
+/// Starts with the second key where the first is the rest pose and the second is not.
+bool skip_rest(const Skeleton& skeleton, Motion& motion) {
+  if (largest_turn(skeleton, motion) > at_rest) return false;
+  Motion later = motion;
+  later.start = second_key(motion);
+  if (std::isinf(later.start) || (motion.end && later.start >= *motion.end)) return false;
+  if (largest_turn(skeleton, later) <= left_rest) return false;
+  motion.start = later.start;
+  return true;
+}
+
+/// Whether flesh passes through flesh on the way from rest to the first pose that is apart there.
+bool leads_through_body(const Body& body, Motion motion) {
+  motion.preroll = std::max(1.0, preroll_for(body.skeleton, motion));
+  const double r = body.material.pair.r;
+  std::vector<double> times;
+  for (int k = 1; k < moments_of_way; ++k) times.push_back(motion.preroll * k / moments_of_way);
+  const double there[] = {motion.preroll};
+  const auto in_pose = intrusions(body, motion, there);
+  for (const Intrusion& one : intrusions(body, motion, times)) {
+    const auto same = std::find_if(in_pose.begin(), in_pose.end(),
+                                   [&](const Intrusion& end) { return end.bones == one.bones; });
+    const double left = same == in_pose.end() ? 0 : same->depth;
+    if (one.depth > std::max(passing_depth * r, left + r)) return true;
+  }
+  return false;
+}
+
+void refuse_pose(const Settings& settings) {
+  const auto refuse = [&](const char* key, const char* what, const char* cure) {
+    throw bad_input(settings.place(key), what, cure);
+  };
+  if (settings.motion.preroll.value_or(0) > 0)
+    refuse("motion.preroll", "a body that begins in the first pose has no way to it",
+           "remove motion.preroll, or set motion.begin to rest");
+  if (settings.solver.method == Method::static_equilibrium)
+    refuse("motion.begin", "the static method begins at rest", "set motion.begin to rest");
+  if (settings.hierarchy.enabled)
+    refuse("motion.begin", "groups of particles begin at rest", "set motion.begin to rest");
+}
+
+/// Whether a body has a choice, and the scene does not make it.
+bool may_be_posed(const Settings& settings) {
+  return settings.motion.preroll.value_or(0) == 0 &&
+         settings.solver.method != Method::static_equilibrium && !settings.hierarchy.enabled;
+}
+
+}  // namespace
+
+bool begins_far_from_rest(const Skeleton& skeleton, Motion clip) {
+  skip_rest(skeleton, clip);
+  return largest_turn(skeleton, clip) > far_from_rest;
+}
+
+Beginning begin_of(const Settings& settings, const Body& body, Motion& motion) {
+  const Begin begin = settings.motion.begin;
+  if (begin == Begin::rest || motion.tracks.empty()) return {};
+  if (begin == Begin::pose) refuse_pose(settings);
+  if (!may_be_posed(settings)) return {};
+  Motion clip = motion;
+  const bool skipped = skip_rest(body.skeleton, clip);
+  const double turn = largest_turn(body.skeleton, clip);
+  std::string why = "the body begins in the first pose";
+  if (begin == Begin::automatic) {
+    if (turn > far_from_rest)
+      why += ", in which a bone is turned by " + three_digits(turn) + " degrees";
+    else if (leads_through_body(body, clip))
+      why += ", to which the way from rest leads through the body";
+    else
+      return {};
+  }
+  if (skipped)
+    why += "; that is the one at " + three_digits(clip.start) +
+           " s of the clip, which is at rest before";
+  motion = from_start(std::move(clip));
+  return {true, why};
+}
+
+Particles posed(const Body& body, const Motion& motion, const Particles& particles,
+                const SolverSettings& solver) {
+  Body still = undamped(body);
+  Pose pose = pose_at(body.skeleton, motion, 0);
+  Particles now = particles;
+  const Points places = skinned(body, pose);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    now.set_position(i, places[static_cast<std::size_t>(now.id[i])]);
+  SolverSettings relaxing = solver;
+  relaxing.integrator = Integrator::symplectic_euler;
+  relaxing.neighbor_search = NeighborSearch::lists;
+  const double limit = step_limit(Integrator::symplectic_euler, still, load_of(still));
+  Simulation simulation(std::move(still), motion, now,
+                        stepping_of(relaxing, relaxing_step_factor * limit));
+  LoadSteps once;
+  once.residual = residual;
+  once.max_iterations = max_iterations;
+  once.solver = StaticSolver::relaxation;
+  simulation.relax(once);
+  try {
+    while (simulation.relaxation()->moments() == 0) simulation.step();
+  } catch (const Error& error) {  // not at rest, but nearer to it
+    if (error.exit() != Exit::unstable) throw;
+  }
+  now = simulation.particles();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    Vec3 velocity = Vec3::Zero();
+    for (const Influence& one : body.binding.of(static_cast<std::size_t>(now.id[i])))
+      velocity +=
+          one.weight * pose[static_cast<std::size_t>(one.bone)].velocity_at(now.position(i));
+    now.set_velocity(i, velocity);
+  }
+  return now;
+}
+
+}  // namespace sinew

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A body that begins in the first pose of its motion rather than at rest: skinned by dual
+// quaternions, and relaxed on bones that stand still.
+//
+//     if (begins_posed(settings, body, motion)) particles = posed(body, motion, particles, solver);
+#pragma once
+
+#include <string>
+
+#include <sinew/body/body.h>
+#include <sinew/core/particles.h>
+#include <sinew/rig/motion.h>
+#include <sinew/settings/settings.h>
+
+namespace sinew {
+
+/// What comes of motion.begin.
+struct Beginning {
+  bool posed = false;  ///< whether the body begins in the first pose
+  std::string why;     ///< in a line; "" where nobody has to know
+};
+
+/// Whether a bone is turned by over 90 degrees where a clip starts.
+bool begins_far_from_rest(const Skeleton& skeleton, Motion clip);
+
+/// Decides it for a body, and starts the motion there: without preroll, and with the second key
+/// where the first is the rest pose and the second is not. Throws bad input, with the scene's line,
+/// for a first pose with a preroll, and with what knows the rest state alone.
+Beginning begin_of(const Settings& settings, const Body& body, Motion& motion);
+
+/// The particles (at rest) in the pose at time 0, at rest there as far as that takes not too long,
+/// with the velocities of their bones.
+Particles posed(const Body& body, const Motion& motion, const Particles& particles,
+                const SolverSettings& solver);
+
+}  // namespace sinew
