@@ -249,10 +249,14 @@ NewScene new_scene(const NewSceneFiles& files) {
   Settings& settings = choices.settings;
   settings.body.mesh = files.mesh;
   settings.output.interval = 1 / pictures;
-  Surface surface = read_guessing(choices);
+  Surface surface =
+      files.figure == nullptr ? read_guessing(choices) : read_body_mesh(settings.body);
   const std::string warning = surface.warning;
   const std::string rig = !files.rig.empty() ? files.rig : rig_within(files.mesh);
-  if (!rig.empty()) surface = use_rig(rig, std::move(surface), choices);
+  if (files.figure != nullptr)
+    use_rig(*files.figure, surface, choices);
+  else if (!rig.empty())
+    surface = use_rig(rig, std::move(surface), choices);
   const std::vector<Limb> limbs = limbs_in(surface, choices);
   choices.box = bounds(surface.triangles.points);
   choose_radius(surface, limbs, choices);
@@ -266,7 +270,8 @@ NewScene new_scene(const NewSceneFiles& files) {
   refine_mesh(files.scene, surface, choices, made);
   made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());
   made.unit = choices.unit, made.axes = choices.axes;
-  made.bones = choices.bones, made.size = choices.size, made.warning = warning;
+  made.bones = choices.bones, made.pose = choices.pose, made.size = choices.size,
+  made.warning = warning;
   return made;
 }
 

@@ -90,6 +90,7 @@ std::string skeleton_text(const NewChoices& choices, const std::filesystem::path
   text += key_text(s, "skeleton", "up");
   if (s.skeleton.forward) text += key_text(s, "skeleton", "forward");
   if (s.skeleton.scale != 1) text += key_text(s, "skeleton", "scale");
+  if (s.skeleton.rest_at) text += note(choices.pose + '.') + key_text(s, "skeleton", "rest_at");
   if (s.skeleton.fit != Fit::none)
     text += note("The rig lies elsewhere: scaled, rotated and moved into the mesh.") +
             key_text(s, "skeleton", "fit");

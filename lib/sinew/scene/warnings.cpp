@@ -333,6 +333,10 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
   warn_of_overlaps(prepared, warnings);
   warn_of_coarse_surface(prepared, warnings);
   warn_of_contacts(prepared, warnings);
+  for (const std::string& note :
+       thin_part_notes(prepared.settings.binding, prepared.body, prepared.steps.step))
+    warnings.push_back(note);
+  warn_of_still_body(prepared, warnings);
   return warnings;
 }
 
