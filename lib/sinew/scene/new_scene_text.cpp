@@ -125,11 +125,10 @@ std::string clip_text(const NewChoices& choices) {
 std::string motion_text(const NewChoices& choices) {
   const Settings& s = choices.settings;
   if (s.tracks.empty()) return clip_text(choices);
-  std::string text = "\nmotion:\n" +
-                     note(
-                         "Every limb bends and goes back: angles in degrees from rest, times in "
-                         "seconds.") +
-                     "  tracks:\n";
+  std::string text =
+      "\nmotion:\n" +
+      note("Limbs bend and go back: angles in degrees from rest, times in seconds.") +
+      "  tracks:\n";
   for (const TrackDefinition& track : s.tracks) text += track_text(track);
   return text;
 }
@@ -151,7 +150,10 @@ std::string binding_text(const NewChoices& choices) {
   text += note("Four times the usual hold: thin limbs follow closely.");
   for (const char* name : {"stiffness", "twist_stiffness", "axial_stiffness"})
     text += key_text(s, "binding", name);
-  return text;
+  text += note("Parts of fewer particles across follow their bones rigidly.");
+  text += key_text(s, "binding", "rigid_below");
+  text += note("Bones of fewer particles pull less: they would set the time step of all.");
+  return text + key_text(s, "binding", "soften_below");
 }
 
 }  // namespace

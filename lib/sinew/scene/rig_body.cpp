@@ -17,21 +17,22 @@ namespace {
 
 constexpr double longest_rig_in_m = 20;                      // of a rig that is no figure
 constexpr double shortest_human = 1.5, tallest_human = 1.9;  // m
-constexpr double clearly_up = 1.3;     // times as far along one axis as along y
-constexpr double finest_wrap = 0.006;  // of the height
+constexpr double clearly_up = 1.3;  // times as far along one axis as along y
+constexpr double finest_wrap = 0.006, coarsest_wrap = 0.01;  // of the height
 constexpr int poses_for_up = 60;
 
-struct Unit {
+struct CaptureUnit {
   double meters;
   const char* name;
 };
 
 /// Units of the files of motion capture, the usual ones first.
-constexpr std::array<Unit, 5> units = {{{1, "meters"},
-                                        {0.01, "centimeters"},
-                                        {0.0254, "inches"},
-                                        {0.0254 / 0.45, "units of 1/0.45 inch, as CMU's"},
-                                        {0.001, "millimeters"}}};
+constexpr std::array<CaptureUnit, 5> capture_units = {
+    {{1, "meters"},
+     {0.01, "centimeters"},
+     {0.0254, "inches"},
+     {0.0254 / 0.45, "units of 1/0.45 inch, as CMU's"},
+     {0.001, "millimeters"}}};
 
 double misfit(double height) {
   return height < shortest_human  ? std::log(shortest_human / height)
@@ -41,8 +42,8 @@ double misfit(double height) {
 
 /// The unit in which a figure is as tall as a human, or as nearly as possible.
 void choose_unit(double height, RigBody& body) {
-  const Unit* best = &units[0];
-  for (const Unit& unit : units)
+  const CaptureUnit* best = &capture_units[0];
+  for (const CaptureUnit& unit : capture_units)
     if (misfit(height * unit.meters) < misfit(height * best->meters) - 1e-9) best = &unit;
   body.skeleton.scale = best->meters;
   body.unit = "the figure is " + three_digits(height) + " tall: in " + best->name + ' ' +
@@ -76,7 +77,7 @@ Axis up_of(const Anatomy& anatomy, const Rig& rig) {
   return up.cwiseAbs().maxCoeff() > clearly_up * usual ? nearest_axis(up) : Axis::y;
 }
 
-Vec3 direction(Axis axis) {
+Vec3 direction_of(Axis axis) {
   const int index = static_cast<int>(axis) % 3;
   return axis < Axis::minus_x ? Vec3::Unit(index) : Vec3(-Vec3::Unit(index));
 }
@@ -97,7 +98,7 @@ Triangles skin_of(const std::vector<FigurePart>& parts, double height) {
     append(capsule_between(part.from, part.to, part.radius), capsules);
     thinnest = std::min(thinnest, part.radius);
   }
-  return wrap(capsules, std::max(thinnest, finest_wrap * height));
+  return wrap(capsules, std::clamp(thinnest, finest_wrap * height, coarsest_wrap * height));
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ RigBody body_of_rig(const std::string& path) {
   Anatomy anatomy = anatomy_of(rig.skeleton);
   const Axis up = up_of(anatomy, rig);
   choose_axes(up, body);
-  body.skeleton.rest_at = best_pose(rig, anatomy, direction(up));
+  body.skeleton.rest_at = best_pose(rig, anatomy, direction_of(up));
   if (body.skeleton.rest_at) {
     rig = with_rest_at(rig, rig.clips.front().motion, *body.skeleton.rest_at);
     anatomy = anatomy_of(rig.skeleton);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/rigid_parts.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,27 +15,27 @@
 namespace sinew {
 namespace {
 
-constexpr double reach = 6, near_reach = 5;  // radii
-constexpr double layer = 1.633;              // distance of two layers of closest packing, radii
-constexpr std::size_t per_piece = 1024;      // particles
-constexpr std::size_t named = 6;             // bones in a line
+constexpr double range_around = 6, range_near = 5;  // radii
+constexpr double layer_distance = 1.633;  // distance of two layers of closest packing, radii
+constexpr std::size_t per_piece = 1024;   // particles
+constexpr std::size_t most_named = 6;     // bones in a line
 
 /// Whether two bones are one, or have a joint in common.
-bool joined(const Skeleton& skeleton, int a, int b) {
+bool share_joint(const Skeleton& skeleton, int a, int b) {
   return a == b || a == no_bone || b == no_bone || skeleton.bones[a].parent == b ||
          skeleton.bones[b].parent == a;
 }
 
 /// The layers that vary as much as the particles around one, across the body.
 double layers_around(const Body& body, const CellGrid& grid, std::size_t i) {
-  const double r = body.material.pair.r, range = reach * r;
+  const double r = body.material.pair.r, range = range_around * r;
   Mat3 squares = Mat3::Zero();
   Vec3 sum = Vec3::Zero();
   double count = 0;
   grid.for_each_near(body.rest[i], [&](std::uint32_t j) {
     const Vec3 apart = body.rest[j] - body.rest[i];
     if (apart.squaredNorm() > range * range ||
-        !joined(body.skeleton, body.binding.bone(i), body.binding.bone(j)))
+        !share_joint(body.skeleton, body.binding.bone(i), body.binding.bone(j)))
       return;
     squares += apart * apart.transpose();
     sum += apart;
@@ -41,7 +43,7 @@ double layers_around(const Body& body, const CellGrid& grid, std::size_t i) {
   });
   const Mat3 spread = squares / count - sum * sum.transpose() / (count * count);
   const double least = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues()[0];
-  return std::sqrt(12 * std::max(least, 0.0) / (layer * layer * r * r) + 1);
+  return std::sqrt(12 * std::max(least, 0.0) / (layer_distance * layer_distance * r * r) + 1);
 }
 
 using BoneCounts = std::vector<std::pair<std::size_t, std::size_t>>;  // bone, count
@@ -51,10 +53,11 @@ std::string list_of(const Skeleton& skeleton, BoneCounts bones) {
   std::stable_sort(bones.begin(), bones.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text;
-  for (std::size_t k = 0; k < std::min(named, bones.size()); ++k)
+  for (std::size_t k = 0; k < std::min(most_named, bones.size()); ++k)
     text += (k > 0 ? ", " : "") + shown(skeleton.bones[bones[k].first].name) + " (" +
             std::to_string(bones[k].second) + ")";
-  if (bones.size() > named) text += " and " + std::to_string(bones.size() - named) + " others";
+  if (bones.size() > most_named)
+    text += " and " + std::to_string(bones.size() - most_named) + " others";
   return text;
 }
 
@@ -104,15 +107,15 @@ std::string softened_note(const BindingOptions& binding, const Body& body, doubl
 std::vector<double> particles_across(const Body& body) {
   const double r = body.material.pair.r;
   std::vector<double> around(body.rest.size()), across(body.rest.size());
-  const CellGrid grid(body.rest, reach * r);
+  const CellGrid grid(body.rest, range_around * r);
   parallel_for(around.size(), per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) around[i] = layers_around(body, grid, i);
   });
   parallel_for(around.size(), per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       grid.for_each_near(body.rest[i], [&](std::uint32_t j) {
-        if ((body.rest[j] - body.rest[i]).norm() <= near_reach * r &&
-            joined(body.skeleton, body.binding.bone(i), body.binding.bone(j)))
+        if ((body.rest[j] - body.rest[i]).norm() <= range_near * r &&
+            share_joint(body.skeleton, body.binding.bone(i), body.binding.bone(j)))
           across[i] = std::max(across[i], around[j]);
       });
   });

@@ -10,8 +10,8 @@ namespace {
 constexpr double alike = 0.1;          // difference of the lengths of two limbs, of the longer
 constexpr double shortest_pair = 0.2;  // of the skeleton's size: limbs, not fingers
 constexpr double long_link = 0.5;      // of the limb's longest: an upper arm, no collar bone
-constexpr double skull = 0.06;         // of the height, above a head joint without an end
-constexpr double sole = 0.04;          // of the height, below the ankle
+constexpr double above_head = 0.06;    // of the height, above a head joint without an end
+constexpr double below_ankle = 0.04;   // of the height, below the ankle
 
 /// The skeleton as a tree of lengths.
 struct Tree {
@@ -153,7 +153,7 @@ double height_of(const Tree& tree, const Skeleton& skeleton, const Anatomy& anat
   double head = length_along(tree, anatomy.head);
   if (!anatomy.head.empty()) head += skeleton.bones[anatomy.head.back()].length;
   const double joints = leg + trunk + head;
-  return joints * (1 + sole) + (anatomy.head.size() < 2 ? skull * joints : 0);
+  return joints * (1 + below_ankle) + (anatomy.head.size() < 2 ? above_head * joints : 0);
 }
 
 /// The two longest pairs; of legs and arms the legs leave nearer to the root.

@@ -8,8 +8,8 @@
 namespace sinew {
 namespace {
 
-constexpr double better = 1.4;    // times as open, for the file's rest pose to be left
-constexpr double as_good = 0.95;  // of the best
+constexpr double times_better = 1.4;  // times as open, for the file's rest pose to be left
+constexpr double nearly_best = 0.95;  // of the best
 constexpr int poses_tried = 120;
 
 Vec3 tail_of(const Skeleton& skeleton, int bone) { return skeleton.bones[bone].tail(); }
@@ -71,10 +71,10 @@ std::optional<double> best_pose(const Rig& rig, const Anatomy& anatomy, const Ve
     open.push_back(openness(with_rest_at(one, clip, time).skeleton, anatomy, up));
   const double best = *std::max_element(open.begin(), open.end());
   const double at_rest = openness(rig.skeleton, anatomy, up);
-  if (best <= 0 || (best < better * at_rest && !carrier_lies_in(rig.skeleton, anatomy)))
+  if (best <= 0 || (best < times_better * at_rest && !carrier_lies_in(rig.skeleton, anatomy)))
     return std::nullopt;
-  const auto first =
-      std::find_if(open.begin(), open.end(), [&](double value) { return value >= as_good * best; });
+  const auto first = std::find_if(open.begin(), open.end(),
+                                  [&](double value) { return value >= nearly_best * best; });
   return times[static_cast<std::size_t>(first - open.begin())];
 }
 

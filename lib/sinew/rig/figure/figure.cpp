@@ -11,14 +11,14 @@ namespace sinew {
 namespace {
 
 // Of the height of a figure: radii of a grown one.
-constexpr std::array<double, 3> leg = {0.045, 0.032, 0.022}, arm = {0.03, 0.024, 0.019};
+constexpr std::array<double, 3> leg_radii = {0.045, 0.032, 0.022}, arm_radii = {0.03, 0.024, 0.019};
 constexpr double neck = 0.032, skull = 0.06, hips_deep = 0.058, waist_deep = 0.052,
                  chest_deep = 0.06, finger = 0.007;
-constexpr double waist = 0.85;  // of the width between hips and shoulders
-constexpr double room = 0.9;    // of the distance of two lines, for both radii
+constexpr double waist = 0.85;     // of the width between hips and shoulders
+constexpr double room_kept = 0.8;  // of the distance of two lines, for both radii
 // Of rigs that are no figure: of a bone's length, and of the rig's size.
-constexpr double thick_bone = 0.2, thinnest = 0.012, thickest = 0.05;
-constexpr double shortest = 1e-4;  // of the height: what has a length
+constexpr double thick_bone = 0.2, thinnest_bone = 0.012, thickest_bone = 0.05;
+constexpr double no_length = 1e-4;  // of the height: what has a length
 
 using Kind = FigurePart::Kind;
 
@@ -50,8 +50,8 @@ class Builder {
       add_trunk();
       add_head();
       for (std::size_t side = 0; side < 2; ++side) {
-        add_limb(anatomy_.legs(), side, leg);
-        add_limb(anatomy_.arms(), side, arm);
+        add_limb(anatomy_.legs(), side, leg_radii);
+        add_limb(anatomy_.arms(), side, arm_radii);
       }
     }
     for (std::size_t b = 0; b < skeleton_.size(); ++b)
@@ -64,12 +64,14 @@ class Builder {
 
   double usual_radius(std::size_t b) const {
     const double length = skeleton_.bones[b].length;
-    if (kinds_[b] == Kind::end) return std::clamp(0.25 * length, finger * H(), arm.back() * H());
-    return std::clamp(thick_bone * length, thinnest * H(), thickest * H());
+    if (kinds_[b] == Kind::end)
+      return std::clamp(0.25 * length, finger * H(), arm_radii.back() * H());
+    return std::clamp(thick_bone * length, thinnest_bone * H(), thickest_bone * H());
   }
 
   void add(int bone, Kind kind, const Vec3& from, const Vec3& to, double radius) {
-    const Vec3 apart = (to - from).norm() > shortest * H() ? to : from + Vec3(0, 0, shortest * H());
+    const Vec3 apart =
+        (to - from).norm() > no_length * H() ? to : from + Vec3(0, 0, no_length * H());
     parts_.push_back({bone, hands_[bone], kind, from, apart, radius});
   }
 
@@ -111,7 +113,7 @@ class Builder {
     const LimbPair& arms = anatomy_.arms();
     places.emplace_back(arms.fork, head_of(arms.fork));
     // Collar bones may rise from low in the chest.
-    if ((middle(arms) - head_of(arms.fork)).norm() > shortest * H())
+    if ((middle(arms) - head_of(arms.fork)).norm() > no_length * H())
       places.emplace_back(arms.fork, middle(arms));
     return places;
   }
@@ -130,7 +132,7 @@ class Builder {
     std::vector<double> along = {0};
     for (std::size_t k = 1; k < places.size(); ++k)
       along.push_back(along.back() + (places[k].second - places[k - 1].second).norm());
-    constexpr int bars = 10;  // closer than they are deep
+    constexpr int bars = 16;  // closer than they are deep
     for (int i = 0; i <= bars; ++i) {
       const double s = static_cast<double>(i) / bars, at = s * along.back();
       std::size_t k = 1;
@@ -141,16 +143,16 @@ class Builder {
       add_bar(places[t < 0.5 ? k - 1 : k].first, place, s);
     }
     for (std::size_t side = 0; side < 2; ++side) {
-      add_corner(anatomy_.legs(), side, leg[0]);
-      add_corner(anatomy_.arms(), side, 1.1 * arm[0]);
+      add_corner(anatomy_.legs(), side, leg_radii[0]);
+      add_corner(anatomy_.arms(), side, 1.1 * arm_radii[0]);
     }
   }
 
   /// A bar across the trunk, at a fraction of the way from the hips to the shoulders.
   void add_bar(int bone, const Vec3& at, double s) {
     const Vec3 low = across(anatomy_.legs()), high = across(anatomy_.arms());
-    const double hips = low.norm() / 2 + 0.8 * leg[0] * H();
-    const double shoulders = std::max(high.norm() / 2 - 0.3 * arm[0] * H(), neck * H());
+    const double hips = low.norm() / 2 + 0.8 * leg_radii[0] * H();
+    const double shoulders = std::max(high.norm() / 2 - 0.3 * arm_radii[0] * H(), neck * H());
     const double width = (1 - (1 - waist) * std::sin(pi * s)) * ((1 - s) * hips + s * shoulders);
     const double usual = s < 0.5 ? hips_deep + 2 * s * (waist_deep - hips_deep)
                                  : waist_deep + (2 * s - 1) * (chest_deep - waist_deep);
@@ -183,7 +185,7 @@ class Builder {
     }
     const Vec3 start = middle(anatomy_.arms()), end = skeleton_.bones[head.back()].tail();
     Vec3 up = end - start;
-    if (up.norm() < shortest * H()) up = Vec3(0, 0, 1);
+    if (up.norm() < no_length * H()) up = Vec3(0, 0, 1);
     up.normalize();
     const double r = skull * H();
     // The skull ends at the end of the head; of rigs that end at its joint, above it.
@@ -229,7 +231,7 @@ std::vector<double> room_of(const std::vector<FigurePart>& parts, const Neighbor
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       const double both = parts[i].radius + parts[k].radius;
-      const double factor = room * near.distance(parts[i], parts[k]) / both;
+      const double factor = room_kept * near.distance(parts[i], parts[k]) / both;
       factors[i] = std::min(factors[i], factor), factors[k] = std::min(factors[k], factor);
     }
   return factors;

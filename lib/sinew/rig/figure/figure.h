@@ -27,7 +27,7 @@ struct FigurePart {
 /// As thick as such parts are, whatever is near them. z is up; lengths are the skeleton's.
 std::vector<FigurePart> parts_of(const Skeleton& skeleton, const Anatomy& anatomy);
 
-/// Parts that are no neighbors stay apart by a tenth of the distance of their lines.
+/// Parts that are no neighbors stay apart by a fifth of the distance of their lines.
 std::vector<FigurePart> figure_of(const Skeleton& skeleton, const Anatomy& anatomy);
 
 /// Which parts are neighbors: those of one bone, of parent and child, of one hand or foot and the
@@ -59,7 +59,7 @@ double distance_between(const FigurePart& a, const FigurePart& b);
 double openness(const Skeleton& posed, const Anatomy& anatomy, const Vec3& up);
 
 /// The time of the pose, s of the clip, in which a figure is to be made; none: the file's own rest
-/// pose. That one is left where another is over `better` times as open, or where a bone that only
+/// pose. That one is left where another is over 1.4 times as open, or where a bone that only
 /// carries the figure lies in it. Of the poses, those open to a twentieth less than the best
 /// count, and of these the first.
 std::optional<double> best_pose(const Rig& rig, const Anatomy& anatomy, const Vec3& up);
