@@ -127,7 +127,7 @@ TEST(Anatomy, FindsUpHoweverTheFileIsTurned) {
   }
 }
 
-/// Of every two parts that are no neighbors.
+/// Checks every two parts that are no neighbors.
 void expect_apart(const Skeleton& skeleton) {
   const Anatomy anatomy = anatomy_of(skeleton);
   const std::vector<FigurePart> parts = figure_of(skeleton, anatomy);

@@ -7,7 +7,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t most_joints = 12;
+constexpr std::size_t max_joints = 12;
 constexpr std::size_t few_particles = 10;          // particles that do not show a bend
 constexpr double fewest_shown = 0.002;             // of the particles
 constexpr double bend_angle = 30;                  // degrees
@@ -49,7 +49,7 @@ std::vector<int> joints_that_skin_follows(const Body& body) {
   }
   std::stable_sort(joints.begin(), joints.end(),
                    [&](int a, int b) { return counts[a] > counts[b]; });
-  joints.resize(std::min(joints.size(), most_joints));
+  joints.resize(std::min(joints.size(), max_joints));
   std::sort(joints.begin(), joints.end());
   return joints;
 }

@@ -28,6 +28,8 @@ constexpr double pictures = 24;     // per second
 // of waves, and with them steps per second, go with the size.
 constexpr double usual_size = 0.5, usual_modulus = 10e3;
 constexpr double layer_fraction = 1.0 / 40;  // thickness of a layer along a mesh without inside
+constexpr double open_fraction = 0.12;   // of a component's area, its holes: it encloses nothing
+constexpr double smallest_shell = 0.05;  // of the area of the mesh
 
 double extent(const Surface& surface) {
   return bounds(surface.triangles.points).sizes().maxCoeff();
@@ -43,6 +45,55 @@ Surface layer_along(const Surface& sheet, NewChoices& choices) {
   return clean(soup);
 }
 
+/// Whether each component has holes so large that it encloses nothing: a mask, a skirt, not
+/// a body that is cut off at the neck.
+std::vector<bool> open_shells(const Surface& surface) {
+  const Triangles& mesh = surface.triangles;
+  std::vector<double> areas(static_cast<std::size_t>(surface.components)), holes = areas;
+  std::vector<std::size_t> component_of(mesh.points.size());
+  double all = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto component = static_cast<std::size_t>(surface.component[f]);
+    const double face = area_vector(mesh, mesh.faces[f]).norm();
+    areas[component] += face, all += face;
+    for (const int point : mesh.faces[f]) component_of[static_cast<std::size_t>(point)] = component;
+  }
+  for (const Loop& loop : border_loops(edge_uses(mesh))) {
+    Vec3 across = Vec3::Zero();
+    for (std::size_t k = 0; k < loop.points.size(); ++k)
+      across += mesh.points[loop.points[k]].cross(
+                    mesh.points[loop.points[(k + 1) % loop.points.size()]]) /
+                2;
+    holes[component_of[static_cast<std::size_t>(loop.points.front())]] += across.norm();
+  }
+  std::vector<bool> open(areas.size());
+  for (std::size_t c = 0; c < open.size(); ++c)
+    open[c] = areas[c] > smallest_shell * all && holes[c] > open_fraction * areas[c];
+  return open;
+}
+
+/// The mesh with layers in place of the shells in it.
+Surface with_layers(const Surface& surface, const std::vector<bool>& open, NewChoices& choices) {
+  const Triangles& mesh = surface.triangles;
+  Triangles shells{mesh.points, {}};
+  PolygonSoup soup{mesh.points, {}};
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (open[static_cast<std::size_t>(surface.component[f])])
+      shells.faces.push_back(mesh.faces[f]);
+    else
+      soup.polygons.emplace_back(mesh.faces[f].begin(), mesh.faces[f].end());
+  const double thickness = layer_fraction * extent(surface);
+  const Triangles layers = thickened(shells, thickness);
+  const int first = static_cast<int>(soup.points.size());
+  soup.points.insert(soup.points.end(), layers.points.begin(), layers.points.end());
+  for (const auto& [a, b, c] : layers.faces)
+    soup.polygons.push_back({a + first, b + first, c + first});
+  const auto count = std::count(open.begin(), open.end(), true);
+  choices.changed = "layers of " + three_digits(thickness) + " m along " + std::to_string(count) +
+                    " open " + (count == 1 ? "shell" : "shells") + " of";
+  return clean(soup);
+}
+
 /// Reads the mesh; unit and axes as guessed.
 Surface read_guessing(NewChoices& choices) {
   BodyOptions& body = choices.settings.body;
@@ -53,8 +104,13 @@ Surface read_guessing(NewChoices& choices) {
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
-  if (ambiguous_fraction(surface) <= max_ambiguous && volume_inside(surface) > 0) return surface;
-  return layer_along(surface, choices);
+  if (ambiguous_fraction(surface) > max_ambiguous || !(volume_inside(surface) > 0))
+    return layer_along(surface, choices);
+  const std::vector<bool> open = open_shells(surface);
+  const auto shells = std::count(open.begin(), open.end(), true);
+  if (shells == 0) return surface;
+  return shells == surface.components ? layer_along(surface, choices)
+                                      : with_layers(surface, open, choices);
 }
 
 /// The fraction of the limbs' length that lies in the body.

@@ -22,7 +22,7 @@ namespace sinew {
 namespace {
 
 // At first: seconds of filling, and at least as fine as looks like a body.
-constexpr double fewest = 3000, most_at_first = 10000, max_if_split = 60000;
+constexpr double fewest = 3000, max_at_first = 10000, max_if_split = 60000;
 constexpr double max_overlap = 0.8;     // of the volume by the faces lies there once
 constexpr double usually_across = 4.5;  // particles across a limb
 constexpr double thin_fraction = 0.1;   // of the limbs' length is thinner than what counts as thin
@@ -30,9 +30,9 @@ constexpr double max_loose = 0.01;      // of the particles, such as single ones
 constexpr double min_within = 0.1;      // of the particles, with neighbors on all sides
 // What a run may take: particles times steps, and particles. About as long as drawing it; and more
 // where limbs are thin, but for those that hold a twentieth of the body.
-constexpr double usual_work = 5e8, usual_particles = 1e5, most_work = 2e9, most_particles = 3e5;
-constexpr double wanted_across = 4, thin_volume = 0.05;
-constexpr int most_trials = 3;
+constexpr double usual_work = 5e8, usual_particles = 1e5, max_work = 2e9, max_particles = 3e5;
+constexpr double min_across = 4, thin_volume = 0.05;
+constexpr int max_trials = 3;
 
 /// Distance from the surface along the limbs: a tenth of their length is thinner.
 double thin_inner(const std::vector<Limb>& limbs) {
@@ -92,7 +92,7 @@ bool too_coarse(const Particles& particles, std::size_t parts) {
 
 /// Chooses by the thickness of limbs, within what a first picture needs and takes.
 double usual_radius(double inner, double volume) {
-  return three_figures(std::clamp(inner / usually_across, radius_for_count(volume, most_at_first),
+  return three_figures(std::clamp(inner / usually_across, radius_for_count(volume, max_at_first),
                                   radius_for_count(volume, fewest)));
 }
 
@@ -160,11 +160,11 @@ Trial measured(const Prepared& prepared) {
   std::vector<double> thickness = particles_across(body);
   std::vector<std::size_t> thin(body.skeleton.size());
   for (std::size_t i = 0; i < thickness.size(); ++i)
-    if (const int bone = body.binding.bone(i); bone != no_bone && thickness[i] < wanted_across)
+    if (const int bone = body.binding.bone(i); bone != no_bone && thickness[i] < min_across)
       ++thin[bone];
-  if (const auto most_thin = std::max_element(thin.begin(), thin.end());
-      most_thin != thin.end() && *most_thin > 0)
-    trial.thin = body.skeleton.bones[static_cast<std::size_t>(most_thin - thin.begin())].name;
+  if (const auto thinnest = std::max_element(thin.begin(), thin.end());
+      thinnest != thin.end() && *thinnest > 0)
+    trial.thin = body.skeleton.bones[static_cast<std::size_t>(thinnest - thin.begin())].name;
   const auto place = thickness.begin() + static_cast<std::ptrdiff_t>(
                                              thin_volume * static_cast<double>(thickness.size()));
   std::nth_element(thickness.begin(), place, thickness.end());
@@ -175,15 +175,15 @@ Trial measured(const Prepared& prepared) {
 /// The radius that the budget allows, by a trial with another one.
 double radius_by(const Trial& trial, double largest) {
   const double usual = trial.for_at_most(usual_work, usual_particles);
-  const double fine = trial.radius * trial.across / wanted_across;
-  const double least = trial.for_at_most(most_work, most_particles);
+  const double fine = trial.radius * trial.across / min_across;
+  const double least = trial.for_at_most(max_work, max_particles);
   return three_figures(std::min(largest, std::max(least, std::min(usual, fine))));
 }
 
 std::string size_text(const Trial& trial) {
   std::string text = "About " + three_digits(trial.particles) + " particles, " +
                      three_digits(trial.work) + " particle-steps; ";
-  if (trial.across >= wanted_across)
+  if (trial.across >= min_across)
     return text + "at least 4 across the limbs that hold 95 % of the volume";
   return text + "only " + three_digits(trial.across) + " across thin limbs, most of them along " +
          shown(trial.thin);
@@ -195,7 +195,7 @@ void use_budget(const Surface& surface, const Prepared& first, NewChoices& choic
   double& radius = *choices.settings.body.radius;
   const double largest = radius;
   Trial trial = measured(first);
-  for (int k = 0; k < most_trials; ++k) {
+  for (int k = 0; k < max_trials; ++k) {
     const double next = radius_by(trial, largest);
     // What a trial allows is near what it is of.
     if (std::abs(next / radius - 1) < 0.03) break;

@@ -18,7 +18,7 @@ namespace {
 constexpr double range_around = 6, range_near = 5;  // radii
 constexpr double layer_distance = 1.633;  // distance of two layers of closest packing, radii
 constexpr std::size_t per_piece = 1024;   // particles
-constexpr std::size_t most_named = 6;     // bones in a line
+constexpr std::size_t max_named = 6;      // bones in a line
 
 /// Whether two bones are one, or have a joint in common.
 bool share_joint(const Skeleton& skeleton, int a, int b) {
@@ -53,11 +53,11 @@ std::string list_of(const Skeleton& skeleton, BoneCounts bones) {
   std::stable_sort(bones.begin(), bones.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text;
-  for (std::size_t k = 0; k < std::min(most_named, bones.size()); ++k)
+  for (std::size_t k = 0; k < std::min(max_named, bones.size()); ++k)
     text += (k > 0 ? ", " : "") + shown(skeleton.bones[bones[k].first].name) + " (" +
             std::to_string(bones[k].second) + ")";
-  if (bones.size() > most_named)
-    text += " and " + std::to_string(bones.size() - most_named) + " others";
+  if (bones.size() > max_named)
+    text += " and " + std::to_string(bones.size() - max_named) + " others";
   return text;
 }
 

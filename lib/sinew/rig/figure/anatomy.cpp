@@ -30,9 +30,9 @@ Tree tree_of(const Skeleton& skeleton) {
     const int parent = skeleton.bones[b].parent;
     if (parent == no_bone) continue;
     tree.children[parent].insert(tree.children[parent].begin(), static_cast<int>(b));
-    const double way = tree.link[b] + tree.reach[b];
-    if (tree.longest[parent] == no_bone || way >= tree.reach[parent])
-      tree.reach[parent] = way, tree.longest[parent] = static_cast<int>(b);
+    const double far = tree.link[b] + tree.reach[b];
+    if (tree.longest[parent] == no_bone || far >= tree.reach[parent])
+      tree.reach[parent] = far, tree.longest[parent] = static_cast<int>(b);
   }
   return tree;
 }
@@ -43,11 +43,11 @@ double size_of(const Tree& tree) {
   for (std::size_t b = 0; b < tree.reach.size(); ++b) {
     double first = 0, second = 0;
     for (const int c : tree.children[b]) {
-      const double way = tree.link[c] + tree.reach[c];
-      if (way > first)
-        second = first, first = way;
+      const double far = tree.link[c] + tree.reach[c];
+      if (far > first)
+        second = first, first = far;
       else
-        second = std::max(second, way);
+        second = std::max(second, far);
     }
     size = std::max({size, first + second, tree.reach[b]});
   }
@@ -140,7 +140,7 @@ double length_along(const Tree& tree, const std::vector<int>& bones) {
   return length;
 }
 
-/// From the soles to the top of the head.
+/// The distance of the soles from the top of the head.
 double height_of(const Tree& tree, const Skeleton& skeleton, const Anatomy& anatomy) {
   double leg = 0;  // two links: thigh and shin; the foot lies on the ground
   int b = anatomy.legs().joint[0];

@@ -10,13 +10,13 @@
 namespace sinew {
 namespace {
 
-// Of the height of a figure: radii of a grown one.
+// Radii of a grown human, of the height.
 constexpr std::array<double, 3> leg_radii = {0.045, 0.032, 0.022}, arm_radii = {0.03, 0.024, 0.019};
 constexpr double neck = 0.032, skull = 0.06, hips_deep = 0.058, waist_deep = 0.052,
                  chest_deep = 0.06, finger = 0.007;
 constexpr double waist = 0.85;     // of the width between hips and shoulders
 constexpr double room_kept = 0.8;  // of the distance of two lines, for both radii
-// Of rigs that are no figure: of a bone's length, and of the rig's size.
+// Rigs that are no figure: of a bone's length, and of the rig's size.
 constexpr double thick_bone = 0.2, thinnest_bone = 0.012, thickest_bone = 0.05;
 constexpr double no_length = 1e-4;  // of the height: what has a length
 

@@ -24,7 +24,7 @@ struct FigurePart {
   double radius = 0;
 };
 
-/// As thick as such parts are, whatever is near them. z is up; lengths are the skeleton's.
+/// Parts as thick as a human has them, whatever is near. z is up; lengths are the skeleton's.
 std::vector<FigurePart> parts_of(const Skeleton& skeleton, const Anatomy& anatomy);
 
 /// Parts that are no neighbors stay apart by a fifth of the distance of their lines.
@@ -36,7 +36,7 @@ std::vector<FigurePart> figure_of(const Skeleton& skeleton, const Anatomy& anato
 class Neighborhood {
  public:
   Neighborhood(const Skeleton& skeleton, const Anatomy& anatomy);
-  /// From line to line; of bones of one parent between their outer halves. Infinite for neighbors.
+  /// The distance of their lines; of bones of one parent that of their outer halves. Infinite for neighbors.
   double distance(const FigurePart& a, const FigurePart& b) const;
 
  private:
