@@ -73,7 +73,7 @@ std::vector<bool> open_shells(const Surface& surface) {
 }
 
 /// The mesh with layers in place of the shells in it.
-Surface with_layers(const Surface& surface, const std::vector<bool>& open, NewChoices& choices) {
+Surface layered_shells(const Surface& surface, const std::vector<bool>& open, NewChoices& choices) {
   const Triangles& mesh = surface.triangles;
   Triangles shells{mesh.points, {}};
   PolygonSoup soup{mesh.points, {}};
@@ -110,7 +110,7 @@ Surface read_guessing(NewChoices& choices) {
   const auto shells = std::count(open.begin(), open.end(), true);
   if (shells == 0) return surface;
   return shells == surface.components ? layer_along(surface, choices)
-                                      : with_layers(surface, open, choices);
+                                      : layered_shells(surface, open, choices);
 }
 
 /// The fraction of the limbs' length that lies in the body.
