@@ -80,15 +80,15 @@ Triangles solid_of(const Options& options) {
                  size.minCoeff() / 4);
 }
 
-/// Writes the mesh of a shape or of a rig alone beside the scene.
-void write_missing_mesh(Options& options) {
+/// Writes the mesh of a shape or of a rig alone, `figure`, beside the scene.
+void write_missing_mesh(Options& options, RigBody& figure) {
   NewSceneFiles& files = options.files;
   const bool rig_alone = options.shape.empty() && !holds_mesh(files.mesh);
   if (options.shape.empty() && !rig_alone) return;
   if (rig_alone && !files.rig.empty())
     throw bad_input(Place{files.mesh}, "is no mesh", "give the mesh first, then the rig");
-  const Triangles body = rig_alone ? skin_of_rig(files.mesh) : solid_of(options);
-  if (rig_alone) files.rig = files.mesh;
+  if (rig_alone) figure = body_of_rig(files.mesh), files.rig = files.mesh, files.figure = &figure;
+  const Triangles body = rig_alone ? figure.skin : solid_of(options);
   std::filesystem::path path = files.scene;
   path.replace_extension(".obj");
   if (std::filesystem::exists(path) && !options.force)
@@ -103,7 +103,8 @@ Exit make(Options options, const Common& common) {
     throw bad_input("a scene needs a mesh or a shape",
                     "give MESH, or --shape; see sinew new --help");
   options.files.scene = scene_path(options);
-  write_missing_mesh(options);
+  RigBody figure;
+  write_missing_mesh(options, figure);
   const NewScene scene = new_scene(options.files);
   if (!scene.mesh.empty()) write_file(scene.mesh, scene.mesh_text);
   write_file(options.files.scene, scene.text);
@@ -113,6 +114,7 @@ Exit make(Options options, const Common& common) {
   results.add("unit", scene.unit);
   results.add("up", scene.axes);
   results.add("bones", scene.bones);
+  if (!scene.pose.empty()) results.add("rest", scene.pose);
   results.add("size", scene.size);
   results.add("run", "sinew run " + shell_quoted(options.files.scene));
   results.print(common);

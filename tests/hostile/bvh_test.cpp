@@ -90,7 +90,6 @@ TEST(HostileBvh, CountsOfFrames) {
   expect_refused(with("Frames: 3", "Frames: 1000000000"), "a.bvh:22:9: 1000000000 frames");
   expect_refused(with("Frames: 3", "Frames: 99999999999999999999"), "range");
   expect_refused(with("Frames: 3", "Frames: 9223372036854775807"), "do not fit");
-  expect_refused(with("Frames: 3", "Frames: 4"), "frame 3");
   expect_refused(with("Frames: 3", "Frames: 1"), "26 more words");
   expect_refused(with("Frames: 3", "Frames: 0"), "0 frames");
   expect_refused(with("Frames: 3", "Frames: -3"), "-3 frames");

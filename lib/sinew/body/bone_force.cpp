@@ -125,10 +125,18 @@ std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Mate
 std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding, const Skeleton& skeleton) {
   std::vector<BoneSprings> springs;
-  for (std::size_t b = 0; b < skeleton.size(); ++b)
-    springs.push_back(
-        springs_of(settings, material, binding.cross_section[b], skeleton.bones[b].strength));
+  for (std::size_t b = 0; b < skeleton.size(); ++b) {
+    const double section = binding.cross_section[b];
+    const double softened = section * softening(settings, material, section, skeleton.bones[b]);
+    springs.push_back(springs_of(settings, material, softened, skeleton.bones[b].strength));
+  }
   return springs;
+}
+
+double softening(const BindingOptions& settings, const Material& material, double section,
+                 const Bone& bone) {
+  const double particles = section * bone.length / volume_per_particle(material.pair.r);
+  return particles > 0 ? std::max(1.0, settings.soften_below / particles) : 1;
 }
 
 double stretch_lag(const Bone& bone, double radius) {

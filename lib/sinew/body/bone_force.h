@@ -50,6 +50,11 @@ std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Mate
 std::vector<BoneSprings> bone_springs(const BindingOptions& settings, const Material& material,
                                       const Binding& binding, const Skeleton& skeleton);
 
+/// The factor, 1 or more, by which binding.soften_below softens the springs of a bone with that
+/// cross-section (m^2) of particles.
+double softening(const BindingOptions& settings, const Material& material, double section,
+                 const Bone& bone);
+
 /// Raises the axial springs of bones whose length the motion changes (of anchors all springs), so
 /// that the flesh follows: unless they are 0. A bar of modulus E whose particles are held along it
 /// by springs k lags behind over sqrt(E V0 / k) from each end; that is at most stretch_lag() then.

@@ -150,6 +150,7 @@ struct SkeletonOptions {
   Vec3 rotation = Vec3::Zero();
   Vec3 offset = Vec3::Zero();
   Fit fit = Fit::none;
+  std::optional<double> rest_at = {};  ///< s of the clip: the pose there is the rest pose
 };
 
 /// Rotates the directions of a mesh or a rig into the scene's: up becomes z, forward x. Exact.
@@ -248,6 +249,8 @@ struct BindingOptions {
   double axial_stiffness = 0.64;
   double bone_damping = 1;
   double joint_zone = 0;
+  double rigid_below = 0;   ///< particles across
+  double soften_below = 0;  ///< particles of a bone
   std::optional<double> max_force = {};
 };
 

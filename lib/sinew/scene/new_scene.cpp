@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <optional>
 #include <utility>
 
-#include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
-#include <sinew/core/particles.h>
 #include <sinew/core/text.h>
-#include <sinew/core/union_find.h>
 #include <sinew/fill/fill_limits.h>
-#include <sinew/fill/pack.h>
 #include <sinew/material/laws.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/refine.h>
@@ -22,23 +17,20 @@
 #include <sinew/repair/curve_skeleton.h>
 #include <sinew/rig/limbs.h>
 #include <sinew/scene/body.h>
+#include <sinew/scene/detail/new_joints.h>
+#include <sinew/scene/detail/new_size.h>
 
 namespace sinew {
 namespace {
 
-// Seconds of filling and stepping on two cores, and at least as fine as looks like a body.
-constexpr double fewest = 3000, most = 10000, max_if_split = 60000;
-constexpr double max_overlap = 0.8;    // of the volume by the faces lies there once
-constexpr double across = 4.5;         // particles across a limb
-constexpr double thin_fraction = 0.1;  // of the limbs' length is thinner than what counts as thin
-constexpr double max_loose = 0.01;     // of the particles, such as single ones at a tip
-constexpr double min_within = 0.1;     // of the particles, with neighbors on all sides
-constexpr double min_inside = 0.5;     // of the limbs' length, in the body
-constexpr double pictures = 24;        // per second
+constexpr double min_inside = 0.5;  // of the limbs' length, in the body
+constexpr double pictures = 24;     // per second
 // A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
 // of waves, and with them steps per second, go with the size.
 constexpr double usual_size = 0.5, usual_modulus = 10e3;
 constexpr double layer_fraction = 1.0 / 40;  // thickness of a layer along a mesh without inside
+constexpr double open_fraction = 0.12;   // of a component's area, its holes: it encloses nothing
+constexpr double smallest_shell = 0.05;  // of the area of the mesh
 
 double extent(const Surface& surface) {
   return bounds(surface.triangles.points).sizes().maxCoeff();
@@ -54,6 +46,55 @@ Surface layer_along(const Surface& sheet, NewChoices& choices) {
   return clean(soup);
 }
 
+/// Whether each component has holes so large that it encloses nothing: a mask, a skirt, not
+/// a body that is cut off at the neck.
+std::vector<bool> open_shells(const Surface& surface) {
+  const Triangles& mesh = surface.triangles;
+  std::vector<double> areas(static_cast<std::size_t>(surface.components)), holes = areas;
+  std::vector<std::size_t> component_of(mesh.points.size());
+  double all = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto component = static_cast<std::size_t>(surface.component[f]);
+    const double face = area_vector(mesh, mesh.faces[f]).norm();
+    areas[component] += face, all += face;
+    for (const int point : mesh.faces[f]) component_of[static_cast<std::size_t>(point)] = component;
+  }
+  for (const Loop& loop : border_loops(edge_uses(mesh))) {
+    Vec3 across = Vec3::Zero();
+    for (std::size_t k = 0; k < loop.points.size(); ++k)
+      across += mesh.points[loop.points[k]].cross(
+                    mesh.points[loop.points[(k + 1) % loop.points.size()]]) /
+                2;
+    holes[component_of[static_cast<std::size_t>(loop.points.front())]] += across.norm();
+  }
+  std::vector<bool> open(areas.size());
+  for (std::size_t c = 0; c < open.size(); ++c)
+    open[c] = areas[c] > smallest_shell * all && holes[c] > open_fraction * areas[c];
+  return open;
+}
+
+/// The mesh with layers in place of the shells in it.
+Surface layered_shells(const Surface& surface, const std::vector<bool>& open, NewChoices& choices) {
+  const Triangles& mesh = surface.triangles;
+  Triangles shells{mesh.points, {}};
+  PolygonSoup soup{mesh.points, {}};
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (open[static_cast<std::size_t>(surface.component[f])])
+      shells.faces.push_back(mesh.faces[f]);
+    else
+      soup.polygons.emplace_back(mesh.faces[f].begin(), mesh.faces[f].end());
+  const double thickness = layer_fraction * extent(surface);
+  const Triangles layers = thickened(shells, thickness);
+  const int first = static_cast<int>(soup.points.size());
+  soup.points.insert(soup.points.end(), layers.points.begin(), layers.points.end());
+  for (const auto& [a, b, c] : layers.faces)
+    soup.polygons.push_back({a + first, b + first, c + first});
+  const auto count = std::count(open.begin(), open.end(), true);
+  choices.changed = "layers of " + three_digits(thickness) + " m along " + std::to_string(count) +
+                    " open " + (count == 1 ? "shell" : "shells") + " of";
+  return clean(soup);
+}
+
 /// Reads the mesh; unit and axes as guessed.
 Surface read_guessing(NewChoices& choices) {
   BodyOptions& body = choices.settings.body;
@@ -64,8 +105,13 @@ Surface read_guessing(NewChoices& choices) {
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
-  if (ambiguous_fraction(surface) <= max_ambiguous && volume_inside(surface) > 0) return surface;
-  return layer_along(surface, choices);
+  if (ambiguous_fraction(surface) > max_ambiguous || !(volume_inside(surface) > 0))
+    return layer_along(surface, choices);
+  const std::vector<bool> open = open_shells(surface);
+  const auto shells = std::count(open.begin(), open.end(), true);
+  if (shells == 0) return surface;
+  return shells == surface.components ? layer_along(surface, choices)
+                                      : layered_shells(surface, open, choices);
 }
 
 /// The fraction of the limbs' length that lies in the body.
@@ -92,93 +138,6 @@ std::vector<Limb> limbs_in(const Surface& surface, NewChoices& choices) {
   } catch (const Error&) {  // no closed surface can be made of the mesh
   }
   return axis_limbs(surface.triangles.points);
-}
-
-/// Distance from the surface along the limbs: a tenth of their length is thinner.
-double thin_inner(const std::vector<Limb>& limbs) {
-  std::vector<std::pair<double, double>> pieces;  // inner, length
-  double all = 0;
-  for (const Limb& limb : limbs) {
-    const std::size_t end = limb.line.size() - (limb.end == Limb::End::tip ? 1 : 0);
-    for (std::size_t i = 1; i < end; ++i) {
-      pieces.emplace_back(limb.inner[i], (limb.line[i] - limb.line[i - 1]).norm());
-      all += pieces.back().second;
-    }
-  }
-  std::sort(pieces.begin(), pieces.end());
-  double so_far = 0;
-  for (const auto& [inner, length] : pieces)
-    if ((so_far += length) >= thin_fraction * all) return inner;
-  return std::numeric_limits<double>::infinity();
-}
-
-/// Rounds to what a person writes.
-double three_figures(double value) {
-  const double step = std::pow(10, std::floor(std::log10(value)) - 2);
-  const double steps = std::round(value / step), parts = std::round(1 / step);
-  return parts > 1 ? steps / parts : steps * step;
-}
-
-/// The fraction of the particles that do not belong to the `parts` largest groups that touch.
-double loose_fraction(const Particles& particles, const NeighborLists& touching,
-                      std::size_t parts) {
-  const int count = static_cast<int>(particles.size());
-  UnionFind groups(particles.size());
-  for (int i = 0; i < count; ++i)
-    for (const std::uint32_t j : touching.of(i)) groups.join(i, static_cast<int>(j));
-  std::vector<std::size_t> sizes(particles.size());
-  for (int i = 0; i < count; ++i) ++sizes[groups.first_of(i)];
-  std::sort(sizes.rbegin(), sizes.rend());
-  const std::size_t connected = std::accumulate(
-      sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(std::min(parts, sizes.size())),
-      std::size_t{0});
-  return 1 - static_cast<double>(connected) / static_cast<double>(particles.size());
-}
-
-/// Whether the particles are too large: parts of the body do not hold together, or it is one or two
-/// layers thick.
-bool too_coarse(const Particles& particles, std::size_t parts) {
-  constexpr std::size_t complete = 12;  // neighbors, of a particle within
-  const NeighborLists touching =
-      neighbors_within(positions_of(particles), rest_neighbor_range(particles.radius));
-  std::size_t within = 0;
-  for (std::size_t i = 0; i < particles.size(); ++i) within += touching.of(i).size() == complete;
-  return loose_fraction(particles, touching, parts) > max_loose ||
-         static_cast<double>(within) < min_within * static_cast<double>(particles.size());
-}
-
-/// Chooses by the thickness of limbs, within what a first picture needs and takes.
-double usual_radius(double inner, double volume) {
-  return three_figures(
-      std::clamp(inner / across, radius_for_count(volume, most), radius_for_count(volume, fewest)));
-}
-
-/// Makes particles smaller where they are too large for the body.
-void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices) {
-  BodyOptions& body = choices.settings.body;
-  const double area_of = area(surface.triangles);
-  const double volume = volume_inside(surface);
-  const double mean = 2 * volume / area_of;  // of a rod its radius, of a sheet its thickness
-  const double inner = choices.hollow ? mean / 2 : std::min(thin_inner(limbs), mean);
-  const std::size_t parts =
-      static_cast<std::size_t>(std::max(limbs.back().body + 1, surface.components));
-  choices.thickness = 2 * inner;
-  body.radius = usual_radius(inner, volume);
-  Particles particles = fill_body(choices.settings, surface).particles;
-  const double filled = static_cast<double>(particles.size()) * volume_per_particle(*body.radius);
-  if (filled > 0 && filled < max_overlap * volume) {  // pieces lie within each other
-    body.radius = usual_radius(inner, filled);
-    particles = fill_body(choices.settings, surface).particles;
-  }
-  while (too_coarse(particles, parts) && static_cast<double>(particles.size()) < max_if_split / 2) {
-    body.radius = three_figures(0.8 * *body.radius);
-    particles = fill_body(choices.settings, surface).particles;
-  }
-  choices.particles = particles.size();
-  choices.size = "About " + std::to_string(choices.particles) + " particles, " +
-                 three_digits(inner / *body.radius) + " across " +
-                 (choices.hollow ? "walls" : "limbs") + " that are " + three_digits(2 * inner) +
-                 " m thick";
 }
 
 void use_limbs(const std::vector<Limb>& limbs, NewChoices& choices) {
@@ -238,6 +197,8 @@ void choose_material(const Surface& surface, NewChoices& choices) {
 
 void choose_binding(BindingOptions& binding, bool hollow) {
   binding.joint_zone = 0.7;
+  binding.rigid_below = 2;
+  binding.soften_below = 64;
   binding.stiffness = binding.twist_stiffness = 6.4;
   binding.axial_stiffness = 2.56;
   if (binding.method == BindMethod::nearest && !hollow) binding.method = BindMethod::inside;
@@ -256,6 +217,19 @@ void choose_contacts(Settings& settings) {
   settings.contact.pass_through.automatic = true;
 }
 
+/// Moves joints that skin follows, where a rig has no clip, and chooses the radius by the work.
+void try_out(const Surface& surface, NewChoices& choices) {
+  try {
+    Prepared prepared = tried(surface, choices);
+    if (!choices.settings.skeleton.file.empty() && !choices.settings.tracks.empty()) {
+      bend_joints(prepared.body, choices);
+      prepared = tried(surface, choices);
+    }
+    use_budget(surface, prepared, choices);
+  } catch (const Error&) {  // check names what is wrong
+  }
+}
+
 }  // namespace
 
 NewScene new_scene(const NewSceneFiles& files) {
@@ -263,10 +237,14 @@ NewScene new_scene(const NewSceneFiles& files) {
   Settings& settings = choices.settings;
   settings.body.mesh = files.mesh;
   settings.output.interval = 1 / pictures;
-  Surface surface = read_guessing(choices);
+  Surface surface =
+      files.figure == nullptr ? read_guessing(choices) : read_body_mesh(settings.body);
   const std::string warning = surface.warning;
   const std::string rig = !files.rig.empty() ? files.rig : rig_within(files.mesh);
-  if (!rig.empty()) surface = use_rig(rig, std::move(surface), choices);
+  if (files.figure != nullptr)
+    use_rig(*files.figure, surface, choices);
+  else if (!rig.empty())
+    surface = use_rig(rig, std::move(surface), choices);
   const std::vector<Limb> limbs = limbs_in(surface, choices);
   choices.box = bounds(surface.triangles.points);
   choose_radius(surface, limbs, choices);
@@ -276,12 +254,14 @@ NewScene new_scene(const NewSceneFiles& files) {
     choices.hollow = false;
   choose_material(surface, choices);
   choose_binding(settings.binding, choices.hollow);
+  try_out(surface, choices);
   if (settings.motion.begin == Begin::automatic) choose_contacts(settings);
   NewScene made;
   refine_mesh(files.scene, surface, choices, made);
   made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());
   made.unit = choices.unit, made.axes = choices.axes;
-  made.bones = choices.bones, made.size = choices.size, made.warning = warning;
+  made.bones = choices.bones, made.pose = choices.pose, made.size = choices.size,
+  made.warning = warning;
   return made;
 }
 

@@ -16,16 +16,30 @@
 
 namespace sinew {
 
+/// A body for a rig alone, m, z up, and how the rig comes into it.
+struct RigBody {
+  Triangles skin;
+  SkeletonOptions skeleton;      ///< with `rest_at` where the skin is that of a pose of the clip
+  std::string unit, axes, pose;  ///< why; `pose` is "" where the rig's own rest pose serves
+};
+
+/// A figure (figure.h) in one skin. Up is where its head is, over its feet, and it is as tall as a
+/// human in the unit that comes nearest. Other rigs: y is up, and those longer than 20 are in cm.
+/// Throws bad input, with the path.
+RigBody body_of_rig(const std::string& path);
+
 struct NewSceneFiles {
-  std::string mesh;   ///< a path
-  std::string rig;    ///< a path; "": the mesh's own, if it has one
-  std::string scene;  ///< where the scene will be; paths in it are relative to its folder
+  std::string mesh;                 ///< a path
+  std::string rig;                  ///< a path; "": the mesh's own, if it has one
+  std::string scene;                ///< where it will be; paths in it are relative to its folder
+  const RigBody* figure = nullptr;  ///< the mesh is its skin
 };
 
 struct NewScene {
   std::string text;                     ///< of the file, with comments
   std::string mesh, mesh_text;          ///< a file that it needs, beside it; "": none
   std::string unit, axes, bones, size;  ///< one line each: what was chosen, and why
+  std::string pose;                     ///< why the rest pose is one of the clip; "": it is not
   std::string warning;                  ///< of the mesh's reader; "": none
 };
 
@@ -60,6 +74,7 @@ inline constexpr double rest_after = 0.2;
 struct NewChoices {
   Settings settings;                    ///< paths relative to the current directory
   std::string unit, axes, bones, size;  ///< why; see NewScene
+  std::string pose = {};                ///< why the rest pose is not the rig's own; "": it is
   std::size_t particles = 0;
   Box box;                              ///< of the body, m
   double thickness = 0;                 ///< of its limbs, m
@@ -77,13 +92,12 @@ std::string new_scene_text(const NewChoices& choices, const std::filesystem::pat
 /// The mesh's own path if it holds a rig as well, else "".
 std::string rig_within(const std::string& mesh);
 
-/// A body for a rig alone: capsules around its bones, a fifth of their length thick on either side,
-/// in one skin. m, z up; rigs longer than 20 are taken for cm. Throws bad input, with the path.
-Triangles skin_of_rig(const std::string& path);
-
 /// Sets skeleton, motion, binding and duration. Of the axes that files usually have, and of the
 /// scales by which units differ, those count with which most of the bones lies inside the mesh;
 /// the mesh may be turned as well: returns its surface. Throws bad input, with the path.
 Surface use_rig(const std::string& rig, Surface surface, NewChoices& choices);
+
+/// The same for the skin of a rig alone, which lies where the rig does.
+void use_rig(const RigBody& figure, const Surface& surface, NewChoices& choices);
 
 }  // namespace sinew

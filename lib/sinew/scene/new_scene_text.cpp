@@ -90,6 +90,7 @@ std::string skeleton_text(const NewChoices& choices, const std::filesystem::path
   text += key_text(s, "skeleton", "up");
   if (s.skeleton.forward) text += key_text(s, "skeleton", "forward");
   if (s.skeleton.scale != 1) text += key_text(s, "skeleton", "scale");
+  if (s.skeleton.rest_at) text += note(choices.pose + '.') + key_text(s, "skeleton", "rest_at");
   if (s.skeleton.fit != Fit::none)
     text += note("The rig lies elsewhere: scaled, rotated and moved into the mesh.") +
             key_text(s, "skeleton", "fit");
@@ -126,11 +127,10 @@ std::string clip_text(const NewChoices& choices) {
 std::string motion_text(const NewChoices& choices) {
   const Settings& s = choices.settings;
   if (s.tracks.empty()) return clip_text(choices);
-  std::string text = "\nmotion:\n" +
-                     note(
-                         "Every limb bends and goes back: angles in degrees from rest, times in "
-                         "seconds.") +
-                     "  tracks:\n";
+  std::string text =
+      "\nmotion:\n" +
+      note("Limbs bend and go back: angles in degrees from rest, times in seconds.") +
+      "  tracks:\n";
   for (const TrackDefinition& track : s.tracks) text += track_text(track);
   return text;
 }
@@ -152,6 +152,10 @@ std::string binding_text(const NewChoices& choices) {
   text += note("Four times the usual hold: thin limbs follow closely.");
   for (const char* name : {"stiffness", "twist_stiffness", "axial_stiffness"})
     text += key_text(s, "binding", name);
+  text += note("Parts of fewer particles across follow their bones rigidly.");
+  text += key_text(s, "binding", "rigid_below");
+  text += note("Bones of fewer particles pull less: they would set the time step of all.");
+  text += key_text(s, "binding", "soften_below");
   if (s.binding.max_force)
     text += note("As much as pushes neighbors to half their distance: holds yield beyond.") +
             key_text(s, "binding", "max_force");

@@ -18,6 +18,7 @@
 #include <sinew/scene/groups.h>
 #include <sinew/scene/particle_parts.h>
 #include <sinew/scene/rig.h>
+#include <sinew/scene/rigid_parts.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
 
@@ -247,6 +248,7 @@ void bind(const SceneFiles& files, const ForceLaw* law, Prepared& prepared) {
                             local_material(prepared.filled), law);
   SceneWorld around = world_of(settings, files, prepared.body, prepared.filled.component);
   prepared.body.world = std::move(around.world);
+  hold_rigid_parts(settings.binding, prepared.body);
   prepared.obstacles = std::move(around.obstacles);
   prepared.probes = std::move(around.probes);
   prepared.motion = std::move(rig.motion);

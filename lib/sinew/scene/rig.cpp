@@ -8,6 +8,7 @@
 #include <sinew/rig/fit.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
+#include <sinew/rig/rest_at.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>
 
@@ -70,6 +71,17 @@ Motion clip_motion(const Rig& rig, const Skeleton& skeleton, const Settings& set
 
 }  // namespace
 
+Rig at_rest(const Settings& settings, const Rig& rig) {
+  if (!settings.skeleton.rest_at) return rig;
+  if (settings.binding.method == BindMethod::file)
+    throw bad_input(settings.place("skeleton.rest_at"),
+                    "the weights of the file are those of its own rest pose",
+                    "remove it, or set binding.method to inside");
+  return with_context(settings, "skeleton.rest_at", [&] {
+    return with_rest_at(rig, clip_of(rig, settings).motion, *settings.skeleton.rest_at);
+  });
+}
+
 Skeleton skeleton_of(const Settings& settings) {
   const bool is_alone =
       settings.supports.empty() && settings.loads.empty() && settings.world.empty();
@@ -107,7 +119,7 @@ Settings with_fit(Settings settings) {
 
 SceneRig rig_of(const Settings& settings, const SceneFiles& files) {
   const bool own_bones = settings.skeleton.file.empty(), own_clip = settings.motion.file.empty();
-  const Rig& from = files.skeleton.rig;
+  const Rig from = at_rest(settings, files.skeleton.rig);
   SceneRig scene;
   scene.skeleton =
       own_bones ? skeleton_of(settings) : placed(from.skeleton, placement_of(settings.skeleton));

@@ -16,6 +16,9 @@ namespace sinew {
 Skeleton skeleton_of(const Settings& settings);
 Motion motion_of(const Settings& settings, const Skeleton& skeleton);
 
+/// The rig of a file, at rest as skeleton.rest_at says. Throws bad input, with the scene's line.
+Rig at_rest(const Settings& settings, const Rig& rig);
+
 /// The bone of that name, which the value at `key` gives. Throws bad input, with the scene's line.
 int bone_of(const Settings& settings, const std::string& key, const Skeleton& skeleton,
             const std::string& name);

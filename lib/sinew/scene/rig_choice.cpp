@@ -10,12 +10,11 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
-#include <sinew/mesh/solids.h>
 #include <sinew/mesh/winding.h>
-#include <sinew/repair/repair.h>
 #include <sinew/rig/fit.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
+#include <sinew/rig/rest_at.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/first_pose.h>
 #include <sinew/scene/scene_files.h>
@@ -147,36 +146,12 @@ void bend_ends(const Skeleton& skeleton, NewChoices& choices) {
   choices.settings.solver.duration = 1.25 + rest_after;
 }
 
-Vec3 nearest_on(const Bone& bone, const Vec3& point) {
-  const double along = bone.axis().dot(point - bone.head());
-  return bone.head() + std::clamp(along, 0.0, bone.length) * bone.axis();
+void choose_motion(const Rig& rig, NewChoices& choices) {
+  choose_clip(rig, choices);
+  if (rig.clips.empty()) bend_ends(rig.skeleton, choices);
 }
-
-constexpr double longest_rig_in_m = 20;  // of a rig; longer ones are in cm
-constexpr double thick_bone = 0.2, min_bone = 0.015, max_bone = 0.05;  // of its length, the rig
 
 }  // namespace
-
-Triangles skin_of_rig(const std::string& path) {
-  SkeletonOptions axes;
-  axes.up = usual_axes[0].up, axes.forward = usual_axes[0].forward;
-  Skeleton skeleton = read_rig(path, {}).rig.skeleton;
-  const bool long_rig = bounds(skeleton).sizes().maxCoeff() > longest_rig_in_m;
-  skeleton = placed(std::move(skeleton), Placement{long_rig ? 0.01 : 1, to_scene(axes)});
-  const double size = bounds(skeleton).sizes().maxCoeff();
-  Triangles capsules;
-  double thinnest = max_bone * size;
-  for (const Bone& bone : skeleton.bones) {
-    const double radius = std::clamp(thick_bone * bone.length, min_bone * size, max_bone * size);
-    thinnest = std::min(thinnest, radius);
-    append(capsule_between(bone.head(), bone.tail(), radius), capsules);
-    if (bone.parent == no_bone) continue;
-    const Vec3 from = nearest_on(skeleton.bones[bone.parent], bone.head());  // they may lie apart
-    if ((from - bone.head()).norm() > 1e-6 * size)
-      append(capsule_between(from, bone.head(), radius), capsules);
-  }
-  return wrap(capsules, thinnest);
-}
 
 std::string rig_within(const std::string& mesh) { return holds_rig(mesh) ? mesh : ""; }
 
@@ -202,9 +177,22 @@ Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
   if (placing.fraction < min_fraction) choices.bones += ": see skeleton.scale, up and forward";
   if (!rig.weights.weights.empty() && placing.fraction >= min_fraction)
     settings.binding.method = BindMethod::file;
-  choose_clip(rig.rig, choices);
-  if (rig.rig.clips.empty()) bend_ends(skeleton, choices);
+  choose_motion(rig.rig, choices);
   return surface;
+}
+
+void use_rig(const RigBody& figure, const Surface& surface, NewChoices& choices) {
+  Settings& settings = choices.settings;
+  settings.skeleton = figure.skeleton;
+  Rig rig = read_rig(figure.skeleton.file, {}).rig;
+  if (figure.skeleton.rest_at)
+    rig = with_rest_at(rig, rig.clips.front().motion, *figure.skeleton.rest_at);
+  const double fraction =
+      fraction_inside(placed(rig.skeleton, placement_of(settings.skeleton)), winding_of(surface));
+  choices.unit = figure.unit, choices.axes = figure.axes, choices.pose = figure.pose;
+  choices.bones = std::to_string(rig.skeleton.size()) + " bones of the rig, " +
+                  three_digits(std::round(100 * fraction)) + " % of them inside the mesh";
+  choose_motion(rig, choices);
 }
 
 }  // namespace sinew

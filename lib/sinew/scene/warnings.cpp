@@ -10,6 +10,7 @@
 #include <sinew/body/solid.h>
 #include <sinew/core/text.h>
 #include <sinew/rig/motion_checks.h>
+#include <sinew/scene/rigid_parts.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
@@ -304,6 +305,31 @@ void warn_of_idle_loads(const World* world, Warnings& warnings) {
   }
 }
 
+/// Bones that carry no particle by a radius, with nothing else to move the body.
+void warn_of_still_body(const Prepared& prepared, Warnings& warnings) {
+  const Body& body = prepared.body;
+  const World* world = body.world.get();
+  const bool pushed =
+      world != nullptr && (!world->obstacles.empty() || !world->fields.empty() ||
+                           !world->supports.empty() || !world->loads.empty() || has_muscles(body));
+  if (body.skeleton.size() == 0 || pushed || !prepared.settings.solver.gravity.isZero(0)) return;
+  constexpr int moments = 60;
+  const double r = body.material.pair.r;
+  for (int k = 0; k <= moments; ++k) {
+    const Pose pose =
+        pose_at(body.skeleton, prepared.motion, prepared.settings.solver.duration * k / moments);
+    for (std::size_t i = 0; i < body.rest.size(); ++i) {
+      const int bone = body.binding.bone(i);
+      if (bone == no_bone) continue;
+      const Vec3 moved = pose[bone].carried(body.rest[i], body.skeleton.bones[bone]);
+      if ((moved - body.rest[i]).norm() > r) return;
+    }
+  }
+  warnings.push_back(
+      "no bone moves any particle by its radius: the body stays as it is; give "
+      "motion.tracks to bones that hold particles");
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed) {
@@ -334,6 +360,10 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
   warn_of_overlaps(prepared, warnings);
   warn_of_coarse_surface(prepared, warnings);
   warn_of_contacts(prepared, warnings);
+  for (const std::string& note :
+       thin_part_notes(prepared.settings.binding, prepared.body, prepared.steps.step))
+    warnings.push_back(note);
+  warn_of_still_body(prepared, warnings);
   return warnings;
 }
 

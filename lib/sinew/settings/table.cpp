@@ -210,6 +210,10 @@ std::vector<Field<Settings>> make_skeleton_section() {
       choice<S>("skeleton", "fit", SINEW_AT(S, skeleton.fit), {"none", "mesh"},
                 "mesh: scales, rotates and moves the rig so that it lies inside the mesh; the "
                 "scene written with the run has the values found"),
+      field<S>("skeleton", "rest_at", SINEW_AT(S, skeleton.rest_at), "s",
+               "time in the clip whose pose is the rest pose, instead of the file's, for a mesh "
+               "made in that pose; motion.start counts as before",
+               not_negative, "none"),
   };
 }
 
@@ -276,6 +280,13 @@ std::vector<Field<Settings>> make_binding() {
           "binding", "joint_zone", SINEW_AT(S, binding.joint_zone), "sqrt(A)",
           "length over which weights blend from one bone to the next; 0: one bone per particle",
           not_negative),
+      field<S>("binding", "rigid_below", SINEW_AT(S, binding.rigid_below), "particles",
+               "parts that are fewer particles thick follow their bone rigidly; 0: none do",
+               not_negative),
+      field<S>("binding", "soften_below", SINEW_AT(S, binding.soften_below), "particles",
+               "a bone of fewer particles pulls each as if it had so many: it follows less "
+               "closely, and needs no shorter time step; 0: none does",
+               not_negative),
       field<S>("binding", "max_force", SINEW_AT(S, binding.max_force), "N",
                "bound on the force with which a bone holds a particle: its springs yield below it",
                positive, "none"),

@@ -25,6 +25,15 @@ TEST(Bvh, WithOneFrameMoreThanItAnnouncesIsReadWhole) {
   EXPECT_EQ(rig_of(bvh).warnings, warnings);
 }
 
+TEST(Bvh, ReadsTheFramesThatAreThereOfMoreAnnounced) {
+  const Bvh all = parse_bvh(bvh_files::small, "a.bvh");
+  const Bvh bvh = parse_bvh(replaced(bvh_files::small, "Frames: 3", "Frames: 5"), "a.bvh");
+  EXPECT_EQ(bvh.frames, 3);
+  EXPECT_EQ(bvh.values, all.values);
+  ASSERT_EQ(bvh.warnings.size(), 1u);
+  EXPECT_NE(bvh.warnings[0].find("after 3 of the 5 frames"), std::string::npos);
+}
+
 TEST(Bvh, HoldsWhatTheFileSays) {
   const Bvh bvh = parsed(bvh_files::small);
   ASSERT_EQ(bvh.joints.size(), 3u);

@@ -219,12 +219,21 @@ void refuse_odd_line(const BvhText& text, const Bvh& bvh, std::string_view frame
   }
 }
 
-void refuse_end(BvhText& text, const Bvh& bvh, std::string_view frames) {
+/// Where the file ends between two frames, with fewer of them than announced: reads what is there.
+/// Refuses a file that ends within a frame, or before the first.
+void end_early(BvhText& text, Bvh& bvh, std::string_view frames) {
   const std::size_t channels = std::max<std::size_t>(bvh.channels(), 1);
-  const std::size_t count = bvh.values.size();
+  const std::size_t count = bvh.values.size(), whole = count / channels;
+  if (whole > 0 && count % channels == 0) {
+    bvh.warnings.push_back(text.place_of(text.rest()).text() + ": the file ends after " +
+                           std::to_string(whole) + " of the " + std::to_string(bvh.frames) +
+                           " frames that are announced; these are read");
+    bvh.frames = static_cast<int>(whole);
+    return;
+  }
   text.next();
   refuse_odd_line(text, bvh, frames);
-  throw text.wrong("the file ends in frame " + std::to_string(count / channels) + " (of 0 to " +
+  throw text.wrong("the file ends in frame " + std::to_string(whole) + " (of 0 to " +
                        std::to_string(bvh.frames - 1) + "), after " +
                        std::to_string(count % channels) + " of its " + std::to_string(channels) +
                        " values",
@@ -260,7 +269,7 @@ void read_motion(BvhText& text, Bvh& bvh) {
   bvh.values.reserve(count);
   const auto read_until = [&](std::size_t size) {
     while (bvh.values.size() < size) {
-      if (text.at_end()) refuse_end(text, bvh, frames);
+      if (text.at_end()) return end_early(text, bvh, frames);
       bvh.values.push_back(text.number("a value of a frame"));
     }
   };

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How large the particles of a new scene are: first by the thickness of its limbs, then as small as
+// a run may take.
+//
+//     choose_radius(surface, limbs, choices);
+//     use_budget(surface, tried(surface, choices), choices);
+#pragma once
+
+#include <vector>
+
+#include <sinew/rig/limbs.h>
+#include <sinew/scene/new_scene.h>
+#include <sinew/scene/prepare.h>
+
+namespace sinew {
+
+/// Rounds to what a person writes.
+double three_figures(double value);
+
+/// Chooses by the thickness of limbs; smaller where the body does not hold together.
+void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices);
+
+/// The scene so far, prepared with this surface in place of its mesh. Throws bad input.
+Prepared tried(const Surface& surface, const NewChoices& choices);
+
+/// Chooses the smallest radius, none larger than the present one, with under 5e8 particle-steps and
+/// 100,000 particles; where limbs are under four particles thick, but for those that hold a
+/// twentieth of the body, up to 2e9 and 300,000. `first`: tried with the present radius.
+void use_budget(const Surface& surface, const Prepared& first, NewChoices& choices);
+
+}  // namespace sinew

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/detail/new_joints.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t max_joints = 12;
+constexpr std::size_t few_particles = 10;          // particles that do not show a bend
+constexpr double fewest_shown = 0.002;             // of the particles
+constexpr double bend_angle = 30;                  // degrees
+constexpr double joint_every = 0.35, lasts = 0.7;  // s from one joint to the next, and of one
+constexpr double already_bent = 0.1;               // sine of the angle at which a joint rests
+
+/// The axis about which a joint bends: as it is bent already, or across the bone.
+Vec3 bending_axis(const Bone& bone, const Bone& parent) {
+  const Vec3 bent = parent.axis().cross(bone.axis());
+  return bent.norm() > already_bent ? bent.normalized() : Vec3(bone.rest.rotation.col(1));
+}
+
+TrackDefinition bending(const std::string& bone, const Vec3& axis, double begin) {
+  TrackDefinition track;
+  track.bone = bone;
+  const auto add = [&](double time, double angle) {
+    KeyDefinition& key = track.keys.emplace_back();
+    key.time = time, key.axis = axis, key.angle = angle;
+  };
+  if (begin > 0) add(0, 0);
+  add(begin, 0), add(begin + lasts / 2, bend_angle), add(begin + lasts, 0);
+  return track;
+}
+
+}  // namespace
+
+std::vector<int> joints_that_skin_follows(const Body& body) {
+  std::vector<std::size_t> counts(body.skeleton.size());
+  for (std::size_t i = 0; i < body.rest.size(); ++i)
+    if (const int bone = body.binding.bone(i); bone != no_bone) ++counts[bone];
+  const std::size_t enough =
+      std::max(few_particles,
+               static_cast<std::size_t>(fewest_shown * static_cast<double>(body.rest.size())));
+  std::vector<int> joints;
+  for (std::size_t b = 0; b < counts.size(); ++b) {
+    const int parent = body.skeleton.bones[b].parent;
+    if (counts[b] >= enough && parent != no_bone && counts[parent] >= few_particles)
+      joints.push_back(static_cast<int>(b));
+  }
+  std::stable_sort(joints.begin(), joints.end(),
+                   [&](int a, int b) { return counts[a] > counts[b]; });
+  joints.resize(std::min(joints.size(), max_joints));
+  std::sort(joints.begin(), joints.end());
+  return joints;
+}
+
+void bend_joints(const Body& body, NewChoices& choices) {
+  const std::vector<int> joints = joints_that_skin_follows(body);
+  if (joints.empty()) return;
+  choices.settings.tracks.clear();
+  const Mat3 to_file = placement_of(choices.settings.skeleton).turn.transpose();
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const Bone& bone = body.skeleton.bones[joints[k]];
+    const Vec3 axis = to_file * bending_axis(bone, body.skeleton.bones[bone.parent]);
+    choices.settings.tracks.push_back(
+        bending(bone.name, axis, joint_every * static_cast<double>(k)));
+  }
+  choices.settings.solver.duration =
+      joint_every * static_cast<double>(joints.size() - 1) + lasts + rest_after;
+}
+
+}  // namespace sinew

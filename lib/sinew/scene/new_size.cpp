@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/scene/detail/new_size.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <sinew/core/cell_grid.h>
+#include <sinew/core/error.h>
+#include <sinew/core/particles.h>
+#include <sinew/core/text.h>
+#include <sinew/core/union_find.h>
+#include <sinew/fill/fill_limits.h>
+#include <sinew/mesh/clean.h>
+#include <sinew/mesh/winding.h>
+#include <sinew/scene/body.h>
+#include <sinew/scene/rigid_parts.h>
+
+namespace sinew {
+namespace {
+
+// At first: seconds of filling, and at least as fine as looks like a body.
+constexpr double fewest = 3000, max_at_first = 10000, max_if_split = 60000;
+constexpr double max_overlap = 0.8;     // of the volume by the faces lies there once
+constexpr double usually_across = 4.5;  // particles across a limb
+constexpr double thin_fraction = 0.1;   // of the limbs' length is thinner than what counts as thin
+constexpr double max_loose = 0.01;      // of the particles, such as single ones at a tip
+constexpr double min_within = 0.1;      // of the particles, with neighbors on all sides
+// What a run may take: particles times steps, and particles. About as long as drawing it; and more
+// where limbs are thin, but for those that hold a twentieth of the body.
+constexpr double usual_work = 5e8, usual_particles = 1e5, max_work = 2e9, max_particles = 3e5;
+constexpr double min_across = 4, thin_volume = 0.05;
+constexpr int max_trials = 3;
+
+/// Distance from the surface along the limbs: a tenth of their length is thinner.
+double thin_inner(const std::vector<Limb>& limbs) {
+  std::vector<std::pair<double, double>> pieces;  // inner, length
+  double all = 0;
+  for (const Limb& limb : limbs) {
+    const std::size_t end = limb.line.size() - (limb.end == Limb::End::tip ? 1 : 0);
+    for (std::size_t i = 1; i < end; ++i) {
+      pieces.emplace_back(limb.inner[i], (limb.line[i] - limb.line[i - 1]).norm());
+      all += pieces.back().second;
+    }
+  }
+  std::sort(pieces.begin(), pieces.end());
+  double so_far = 0;
+  for (const auto& [inner, length] : pieces)
+    if ((so_far += length) >= thin_fraction * all) return inner;
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double three_figures(double value) {
+  const double step = std::pow(10, std::floor(std::log10(value)) - 2);
+  const double steps = std::round(value / step), parts = std::round(1 / step);
+  return parts > 1 ? steps / parts : steps * step;
+}
+
+namespace {
+
+/// The fraction of the particles that do not belong to the `parts` largest groups that touch.
+double loose_fraction(const Particles& particles, const NeighborLists& touching,
+                      std::size_t parts) {
+  const int count = static_cast<int>(particles.size());
+  UnionFind groups(particles.size());
+  for (int i = 0; i < count; ++i)
+    for (const std::uint32_t j : touching.of(i)) groups.join(i, static_cast<int>(j));
+  std::vector<std::size_t> sizes(particles.size());
+  for (int i = 0; i < count; ++i) ++sizes[groups.first_of(i)];
+  std::sort(sizes.rbegin(), sizes.rend());
+  const std::size_t connected = std::accumulate(
+      sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(std::min(parts, sizes.size())),
+      std::size_t{0});
+  return 1 - static_cast<double>(connected) / static_cast<double>(particles.size());
+}
+
+/// Whether the particles are too large: parts of the body do not hold together, or it is one or two
+/// layers thick.
+bool too_coarse(const Particles& particles, std::size_t parts) {
+  constexpr std::size_t complete = 12;  // neighbors, of a particle within
+  const NeighborLists touching =
+      neighbors_within(positions_of(particles), rest_neighbor_range(particles.radius));
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) within += touching.of(i).size() == complete;
+  return loose_fraction(particles, touching, parts) > max_loose ||
+         static_cast<double>(within) < min_within * static_cast<double>(particles.size());
+}
+
+/// Chooses by the thickness of limbs, within what a first picture needs and takes.
+double usual_radius(double inner, double volume) {
+  return three_figures(std::clamp(inner / usually_across, radius_for_count(volume, max_at_first),
+                                  radius_for_count(volume, fewest)));
+}
+
+}  // namespace
+
+void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices) {
+  BodyOptions& body = choices.settings.body;
+  const double area_of = area(surface.triangles);
+  const double volume = volume_inside(surface);
+  const double mean = 2 * volume / area_of;  // of a rod its radius, of a sheet its thickness
+  const double inner = choices.hollow ? mean / 2 : std::min(thin_inner(limbs), mean);
+  const std::size_t parts =
+      static_cast<std::size_t>(std::max(limbs.back().body + 1, surface.components));
+  choices.thickness = 2 * inner;
+  body.radius = usual_radius(inner, volume);
+  Particles particles = fill_body(choices.settings, surface).particles;
+  const double filled = static_cast<double>(particles.size()) * volume_per_particle(*body.radius);
+  if (filled > 0 && filled < max_overlap * volume) {  // pieces lie within each other
+    body.radius = usual_radius(inner, filled);
+    particles = fill_body(choices.settings, surface).particles;
+  }
+  while (too_coarse(particles, parts) && static_cast<double>(particles.size()) < max_if_split / 2) {
+    body.radius = three_figures(0.8 * *body.radius);
+    particles = fill_body(choices.settings, surface).particles;
+  }
+  choices.particles = particles.size();
+  choices.size = "About " + std::to_string(choices.particles) + " particles, " +
+                 three_digits(inner / *body.radius) + " across " +
+                 (choices.hollow ? "walls" : "limbs") + " that are " + three_digits(2 * inner) +
+                 " m thick";
+}
+
+Prepared tried(const Surface& surface, const NewChoices& choices) {
+  Settings settings = choices.settings;
+  PolygonSoup soup{surface.triangles.points, {}};
+  for (const auto& face : surface.triangles.faces)
+    soup.polygons.emplace_back(face.begin(), face.end());
+  settings.body.mesh = "body";
+  settings.body.unit = LengthUnit::m, settings.body.up = Axis::z, settings.body.forward.reset();
+  settings.meshes["body"] = std::move(soup);
+  return prepare({std::move(settings)});
+}
+
+namespace {
+
+/// What a radius costs, and how fine it is.
+struct Trial {
+  double radius = 0, particles = 0, work = 0;
+  double across = 0;  ///< the thinnest parts but for a twentieth of the body, in particles
+  std::string thin;   ///< the bone that holds most of what is too thin
+
+  /// The radius for so much work and so many particles: steps become as short as particles small.
+  double for_at_most(double other_work, double count) const {
+    return radius * std::max(std::pow(work / other_work, 0.25), std::cbrt(particles / count));
+  }
+};
+
+Trial measured(const Prepared& prepared) {
+  const Body& body = prepared.body;
+  Trial trial;
+  trial.radius = body.material.pair.r;
+  trial.particles = static_cast<double>(body.rest.size());
+  trial.work =
+      trial.particles * static_cast<double>(prepared.plan.steps_until(prepared.frames.count));
+  std::vector<double> thickness = particles_across(body);
+  std::vector<std::size_t> thin(body.skeleton.size());
+  for (std::size_t i = 0; i < thickness.size(); ++i)
+    if (const int bone = body.binding.bone(i); bone != no_bone && thickness[i] < min_across)
+      ++thin[bone];
+  if (const auto thinnest = std::max_element(thin.begin(), thin.end());
+      thinnest != thin.end() && *thinnest > 0)
+    trial.thin = body.skeleton.bones[static_cast<std::size_t>(thinnest - thin.begin())].name;
+  const auto place = thickness.begin() + static_cast<std::ptrdiff_t>(
+                                             thin_volume * static_cast<double>(thickness.size()));
+  std::nth_element(thickness.begin(), place, thickness.end());
+  trial.across = *place;
+  return trial;
+}
+
+/// The radius that the budget allows, by a trial with another one.
+double radius_by(const Trial& trial, double largest) {
+  const double usual = trial.for_at_most(usual_work, usual_particles);
+  const double fine = trial.radius * trial.across / min_across;
+  const double least = trial.for_at_most(max_work, max_particles);
+  return three_figures(std::min(largest, std::max(least, std::min(usual, fine))));
+}
+
+std::string size_text(const Trial& trial) {
+  std::string text = "About " + three_digits(trial.particles) + " particles, " +
+                     three_digits(trial.work) + " particle-steps; ";
+  if (trial.across >= min_across)
+    return text + "at least 4 across the limbs that hold 95 % of the volume";
+  return text + "only " + three_digits(trial.across) + " across thin limbs, most of them along " +
+         shown(trial.thin);
+}
+
+}  // namespace
+
+void use_budget(const Surface& surface, const Prepared& first, NewChoices& choices) {
+  double& radius = *choices.settings.body.radius;
+  const double largest = radius;
+  Trial trial = measured(first);
+  for (int k = 0; k < max_trials; ++k) {
+    const double next = radius_by(trial, largest);
+    // What a trial allows is near what it is of.
+    if (std::abs(next / radius - 1) < 0.03) break;
+    radius = next;
+    trial = measured(tried(surface, choices));
+  }
+  choices.particles = static_cast<std::size_t>(trial.particles);
+  choices.size = size_text(trial);
+}
+
+}  // namespace sinew
