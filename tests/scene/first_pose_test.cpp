@@ -77,6 +77,11 @@ TEST(FirstPose, AFirstFrameAtRestIsPassedOver) {
       test::track("upper", {test::bend_key(0, 0), test::bend_key(0.1, 70), test::bend_key(1, 70)})};
   const Prepared prepared = test::prepared(settings, bar());
   EXPECT_NEAR(prepared.motion.start, 0.1, 1e-12);
+  settings.motion.begin = Begin::automatic;
+  EXPECT_TRUE(test::prepared(settings, bar()).beginning.posed);
+  Settings slow = settings;  // a motion, and no jump
+  slow.tracks[0].keys[1].time = 0.5;
+  EXPECT_FALSE(test::prepared(slow, bar()).beginning.posed);
   EXPECT_NE(prepared.beginning.why.find("0.1 s of the clip"), std::string::npos);
   EXPECT_NEAR(
       degrees(rotation_vector(Quat(pose_at(prepared.body.skeleton, prepared.motion, 0)[1].turn))

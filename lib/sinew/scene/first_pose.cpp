@@ -18,7 +18,8 @@
 namespace sinew {
 namespace {
 
-constexpr double at_rest = 1, left_rest = 10;  // degrees that a bone turns from rest
+constexpr double at_rest = 1, left_rest = 30;  // degrees that a bone turns from rest
+constexpr double max_frame = 0.1 + 1e-6;       // s from one frame to the next
 constexpr double far_from_rest = 90;           // the same
 constexpr int moments_of_way = 8;
 constexpr double residual = 1e-3;
@@ -54,7 +55,8 @@ bool skip_rest(const Skeleton& skeleton, Motion& motion) {
   if (largest_turn(skeleton, motion) > at_rest) return false;
   Motion later = motion;
   later.start = second_key(motion);
-  if (std::isinf(later.start) || (motion.end && later.start >= *motion.end)) return false;
+  if (later.start - motion.start > max_frame || (motion.end && later.start >= *motion.end))
+    return false;
   if (largest_turn(skeleton, later) <= left_rest) return false;
   motion.start = later.start;
   return true;
@@ -99,8 +101,7 @@ bool may_be_posed(const Settings& settings) {
 }  // namespace
 
 bool begins_far_from_rest(const Skeleton& skeleton, Motion clip) {
-  skip_rest(skeleton, clip);
-  return largest_turn(skeleton, clip) > far_from_rest;
+  return skip_rest(skeleton, clip) || largest_turn(skeleton, clip) > far_from_rest;
 }
 
 Beginning begin_of(const Settings& settings, const Body& body, Motion& motion) {
@@ -115,6 +116,8 @@ Beginning begin_of(const Settings& settings, const Body& body, Motion& motion) {
   if (begin == Begin::automatic) {
     if (turn > far_from_rest)
       why += ", in which a bone is turned by " + three_digits(turn) + " degrees";
+    else if (skipped)
+      why += ", to which the clip jumps in a frame";
     else if (leads_through_body(body, clip))
       why += ", to which the way from rest leads through the body";
     else

@@ -20,7 +20,7 @@ struct Beginning {
   std::string why;     ///< in a line; "" where nobody has to know
 };
 
-/// Whether a bone is turned by over 90 degrees where a clip starts.
+/// Whether a bone is turned by over 90 degrees where a clip starts, or jumps from rest in a frame.
 bool begins_far_from_rest(const Skeleton& skeleton, Motion clip);
 
 /// Decides it for a body, and starts the motion there: without preroll, and with the second key
