@@ -18,7 +18,7 @@
 namespace sinew {
 namespace {
 
-constexpr double at_rest = 1, left_rest = 30;  // degrees that a bone turns from rest
+constexpr double rest_turn = 1, left_rest = 30;  // degrees that a bone turns from rest
 constexpr double max_frame = 0.1 + 1e-6;       // s from one frame to the next
 constexpr double far_from_rest = 90;           // the same
 constexpr int moments_of_way = 8;
@@ -52,7 +52,7 @@ double second_key(const Motion& motion) {
 
 /// Starts with the second key where the first is the rest pose and the second is not.
 bool skip_rest(const Skeleton& skeleton, Motion& motion) {
-  if (largest_turn(skeleton, motion) > at_rest) return false;
+  if (largest_turn(skeleton, motion) > rest_turn) return false;
   Motion later = motion;
   later.start = second_key(motion);
   if (later.start - motion.start > max_frame || (motion.end && later.start >= *motion.end))

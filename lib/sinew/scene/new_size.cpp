@@ -30,7 +30,7 @@ constexpr double max_loose = 0.01;      // of the particles, such as single ones
 constexpr double min_within = 0.1;      // of the particles, with neighbors on all sides
 // What a run may take: particles times steps, and particles. About as long as drawing it; and more
 // where limbs are thin, but for those that hold a twentieth of the body.
-constexpr double usual_work = 5e8, usual_particles = 1e5, max_work = 2e9, max_particles = 3e5;
+constexpr double usual_work = 5e8, usual_particles = 1e5, largest_work = 2e9, max_particles = 3e5;
 constexpr double min_across = 4, thin_volume = 0.05;
 constexpr int max_trials = 3;
 
@@ -176,7 +176,7 @@ Trial measured(const Prepared& prepared) {
 double radius_by(const Trial& trial, double largest) {
   const double usual = trial.for_at_most(usual_work, usual_particles);
   const double fine = trial.radius * trial.across / min_across;
-  const double least = trial.for_at_most(max_work, max_particles);
+  const double least = trial.for_at_most(largest_work, max_particles);
   return three_figures(std::min(largest, std::max(least, std::min(usual, fine))));
 }
 
