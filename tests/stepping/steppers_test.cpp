@@ -264,8 +264,9 @@ TEST(Steppers, TakeTheSameStepsWhereHoldsYield) {
       Simulation yields = test::make_simulation(settings, rest),
                  holds = test::make_simulation(firm, rest);
       yields.advance(50), holds.advance(50);
-      if (max_force < 0.1)  // the other one is enough for most
+      if (max_force < 0.1) {  // the other one is enough for most
         EXPECT_GT(test::largest_distance(yields.particles(), holds.particles()), 1e-3 * r);
+      }
     }
 }
 
