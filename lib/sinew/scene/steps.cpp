@@ -94,7 +94,8 @@ double carried(const ObstaclePose& from, const ObstaclePose& to, double reach) {
 /// they have moved since the last: those of a body that is brought to rest have no velocities.
 class Speedometer {
  public:
-  /// Before the first moment, at 0, bones were at rest for `between` s: they may begin elsewhere.
+  /// Before the first moment, at 0, bones were at rest for `between` s, unless the body begins in
+  /// their first pose: they may begin elsewhere.
   Speedometer(const Prepared& prepared, double between)
       : skeleton_(prepared.body.skeleton),
         world_(prepared.body.world),
@@ -103,6 +104,7 @@ class Speedometer {
         poses_(prepared.body.skeleton, prepared.motion),
         time_(-between) {
     for (const Bone& bone : skeleton_.bones) last_.push_back({bone.head(), bone.tail()});
+    if (prepared.beginning.posed) last_ = ends_at(0);
     if (!world_) return;
     for (const Support& support : world_->supports)
       reach_of_supports_.push_back(reach_of(support, rest_));
@@ -113,8 +115,7 @@ class Speedometer {
     const Pose& pose = poses_.at(time);
     double fastest = 0;
     for (std::size_t b = 0; b < pose.size(); ++b) {
-      const double length = pose[b].stretch * skeleton_.bones[b].length;
-      const BoneEnds ends = {pose[b].frame.origin, pose[b].frame.origin + length * pose[b].axis()};
+      const BoneEnds ends = ends_of(b, pose[b]);
       const double spin = pose[b].angular_velocity.norm() * reach_[b];
       fastest = std::max({fastest, pose[b].velocity.norm() + spin,
                           pose[b].velocity_at(ends.tail).norm() + spin, moved(b, ends, time)});
@@ -126,6 +127,17 @@ class Speedometer {
   }
 
  private:
+  BoneEnds ends_of(std::size_t bone, const BonePose& now) const {
+    const double length = now.stretch * skeleton_.bones[bone].length;
+    return {now.frame.origin, now.frame.origin + length * now.axis()};
+  }
+
+  std::vector<BoneEnds> ends_at(double time) {
+    std::vector<BoneEnds> ends;
+    for (const BonePose& now : poses_.at(time)) ends.push_back(ends_of(ends.size(), now));
+    return ends;
+  }
+
   double speed_of_supports(double time, const Pose& pose) {
     if (!world_) return 0;
     std::vector<ObstaclePose> now;
