@@ -89,9 +89,14 @@ TEST(SceneWarnings, AreSilentWhereItBendsOrNothingMoves) {
 
 TEST(SceneWarnings, TellOfAnglesInRadians) {
   for (const char* angle : {"1.57", "0.785", "3.14159", "-2.0944"})
-    expect_one(warnings_with(fine, bend_by(angle)), "in radians");
+    EXPECT_TRUE(told(warnings_with(fine, bend_by(angle)), "in radians")) << angle;
   for (const char* angle : {"90", "4.96", "2", "1.4"})
-    EXPECT_EQ(warnings_with(fine, bend_by(angle)), std::vector<std::string>{}) << angle;
+    EXPECT_FALSE(told(warnings_with(fine, bend_by(angle)), "in radians")) << angle;
+  EXPECT_EQ(warnings_with(fine, bend_by("90")), std::vector<std::string>{});
+}
+
+TEST(SceneWarnings, TellOfBonesThatMoveNothing) {
+  expect_one(warnings_with(fine, bend_by("0.01")), "no bone moves any particle by its radius");
 }
 
 TEST(SceneWarnings, TellOfAUnitThatNoBodyHas) {

@@ -40,7 +40,7 @@ double across_middle(const Body& body) {
 
 TEST(ThinParts, AreAsManyParticlesAcrossAsTheyHaveLayers) {
   for (const int layers : {1, 2, 3, 4})
-    EXPECT_NEAR(across_middle(body_of(layers_of(layers))), layers, 0.1) << layers;
+    EXPECT_NEAR(across_middle(body_of(layers_of(layers))), layers, 0.1 * layers) << layers;
   EXPECT_GT(across_middle(body_of(layers_of(12))), 5);
 }
 

@@ -312,7 +312,8 @@ void warn_of_still_body(const Prepared& prepared, Warnings& warnings) {
   const bool pushed =
       world != nullptr && (!world->obstacles.empty() || !world->fields.empty() ||
                            !world->supports.empty() || !world->loads.empty() || has_muscles(body));
-  if (body.skeleton.size() == 0 || pushed || !prepared.settings.solver.gravity.isZero(0)) return;
+  if (prepared.motion.tracks.empty() || pushed || !prepared.settings.solver.gravity.isZero(0))
+    return;
   constexpr int moments = 60;
   const double r = body.material.pair.r;
   for (int k = 0; k <= moments; ++k) {
