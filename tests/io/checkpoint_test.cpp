@@ -56,7 +56,7 @@ Checkpoint sample_within_increment(bool single) {
   SimulationState begun = made.state;
   begun.steps = 12;
   begun.relaxation.at_rest = 3;
-  made.state.increment_begun = std::make_shared<const SimulationState>(begun);
+  made.state.begun = std::make_shared<const SimulationState>(begun);
   made.state.relaxation = {3, 40, 50, 2, 0.25, 0.125, 0.5, 1, 2, 3, 4, 5};
   return made;
 }
@@ -136,10 +136,10 @@ TEST_F(CheckpointFile, KeepsWhereAnIncrementBegan) {
     const Checkpoint written = sample_within_increment(single);
     write_checkpoint(file(), written);
     const Checkpoint read = read_checkpoint(file(), particles);
-    ASSERT_TRUE(read.state.increment_begun);
-    EXPECT_EQ(read.state.increment_begun->steps, 12);
-    EXPECT_EQ(read.state.increment_begun->relaxation.at_rest, 3);
-    EXPECT_EQ(read.state.increment_begun->moving.index(), single ? 1u : 0u);
+    ASSERT_TRUE(read.state.begun);
+    EXPECT_EQ(read.state.begun->steps, 12);
+    EXPECT_EQ(read.state.begun->relaxation.at_rest, 3);
+    EXPECT_EQ(read.state.begun->moving.index(), single ? 1u : 0u);
     EXPECT_EQ(read.state.relaxation.spent, 50);
     EXPECT_EQ(read.state.relaxation.increment, 0.125);
     EXPECT_EQ(bytes_of(read), bytes_of(written));

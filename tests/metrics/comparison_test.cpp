@@ -14,7 +14,7 @@
 namespace sinew::test::comparison_test {
 
 ComparedRun some_run(const char* name, double factor) {
-  ComparedRun run{name, std::vector<FrameMetrics>(3), {}, r};
+  ComparedRun run{name, std::vector<FrameMetrics>(3), {}, r, 1000};
   for (int i = 0; i < 3; ++i) {
     for (const Metric& metric : metrics_table()) run.frames[i].*metric.value = factor * (i + 1);
     run.frames[i].time = 0.5 * i;

@@ -190,7 +190,7 @@ ReportInput report_of(const Measured& run) {
 }
 
 ComparedRun compared(const char* name, const Measured& run) {
-  return {name, run.frames, run.summary, r};
+  return {name, run.frames, run.summary, r, 1000};
 }
 
 TEST(Golden, MetricsAreWhatTheyWere) {

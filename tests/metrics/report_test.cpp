@@ -216,14 +216,14 @@ TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {
   frames[2].broken_neighbors = 0;
   Summary summary = summarize(frames, r);
   summary.residual_rms = 0.1 * r;
-  const auto items = verdict(frames, summary, r);
+  const auto items = verdict(frames, summary, r, 1000);
   EXPECT_EQ(items[0].value, "1.00 %");
   EXPECT_EQ(items[0].level, Level::good);
   EXPECT_EQ(items[1].value, "3.00 r");
   EXPECT_EQ(items[1].level, Level::fair);
   EXPECT_EQ(items[2].value, "2.00 %");
   EXPECT_EQ(items[2].level, Level::fair);
-  EXPECT_EQ(items[3].value, "100");
+  EXPECT_EQ(items[3].value, "10.00 %");
   EXPECT_EQ(items[3].level, Level::poor);
   EXPECT_EQ(items[4].label, "residual after the return");
   EXPECT_EQ(items[4].value, "0.10 r");
@@ -238,34 +238,35 @@ TEST(Verdict, GivesReasonsForDistrust) {
   frames[1].inverted = 10;  // a hundredth
   EXPECT_EQ(reasons(), "");
   frames[1].inverted = 11;
-  EXPECT_EQ(reasons(), "11 particles are inverted");
+  EXPECT_EQ(reasons(), "11 of 1000 particles are inverted");
   frames[2].volume_error = 0.5;
   frames[0].pose_error_far_rms = 7 * r;
   EXPECT_EQ(reasons(),
-            "11 particles are inverted, the volume is off by 50.00 %, the body is 7.00 r "
+            "11 of 1000 particles are inverted, the volume is off by 50.00 %, the body is 7.00 r "
             "from the pose of its bones");
 }
 
 TEST(Verdict, CountsBondsWhereThereAreSome) {
   std::vector<FrameMetrics> frames(1);
   frames[0].broken_neighbors = 1;
-  EXPECT_EQ(verdict(frames, summarize(frames, r), r)[2].label, "broken neighbors");
+  EXPECT_EQ(verdict(frames, summarize(frames, r), r, 1000)[2].label, "broken neighbors");
   frames[0].broken_bonds = 0.005;
-  const VerdictItem item = verdict(frames, summarize(frames, r), r)[2];
+  const VerdictItem item = verdict(frames, summarize(frames, r), r, 1000)[2];
   EXPECT_EQ(item.label, "broken bonds");
   EXPECT_EQ(item.value, "0.50 %");
   EXPECT_EQ(item.level, Level::good);
 }
 
-TEST(Verdict, JudgesTheTipWhereThereIsNoReturn) {
+TEST(Verdict, JudgesEachLimbByItsOwnBoneWhereThereIsNoReturn) {
   std::vector<FrameMetrics> frames(1);
-  frames[0].tip_angle = 87;
+  frames[0].tip_angle = 3;  // of a bone that does not turn, beside one that does
   frames[0].bone_angle = 90;
-  const VerdictItem item = verdict(frames, summarize(frames, r), r)[4];
-  EXPECT_EQ(item.label, "rotation of the tip at the end");
-  EXPECT_EQ(item.value, "87.0°");
+  frames[0].limb_turn_max = 6;
+  const VerdictItem item = verdict(frames, summarize(frames, r), r, 1000)[4];
+  EXPECT_EQ(item.label, "between a limb and its bone, at the end");
+  EXPECT_EQ(item.value, "6.0°");
   EXPECT_EQ(item.level, Level::fair);
-  EXPECT_EQ(verdict(frames, summarize(frames, r), r)[0].level, Level::unknown);
+  EXPECT_EQ(verdict(frames, summarize(frames, r), r, 1000)[0].level, Level::unknown);
 }
 
 TEST(Verdict, EachScaleChangesAtItsTwoValues) {
@@ -279,18 +280,48 @@ TEST(Verdict, EachScaleChangesAtItsTwoValues) {
     std::vector<FrameMetrics> frames(1);
     frames[0].bone_angle = 0;
     frames[0].*judged.metric = value;
-    return verdict(frames, summarize(frames, 1), 1)[static_cast<std::size_t>(judged.item)].level;
+    return verdict(frames, summarize(frames, 1), 1, 1000)[static_cast<std::size_t>(judged.item)]
+        .level;
   };
-  for (const Judged& judged :
-       {Judged{&FrameMetrics::volume_error, 0, 0.02, 0.1},
-        Judged{&FrameMetrics::pose_error_far_rms, 1, 2, 5},
-        Judged{&FrameMetrics::broken_neighbors, 2, 0.01, 0.05},
-        Judged{&FrameMetrics::inverted, 3, 0, 3}, Judged{&FrameMetrics::tip_angle, 4, 1, 5}}) {
+  for (const Judged& judged : {Judged{&FrameMetrics::volume_error, 0, 0.02, 0.1},
+                               Judged{&FrameMetrics::pose_error_far_rms, 1, 2, 5},
+                               Judged{&FrameMetrics::broken_neighbors, 2, 0.01, 0.05},
+                               Judged{&FrameMetrics::inverted, 3, 1, 10},  // of a thousand
+                               Judged{&FrameMetrics::limb_turn_max, 4, 5, 20}}) {
     EXPECT_EQ(level(judged, judged.good), Level::good) << judged.item;
     EXPECT_EQ(level(judged, judged.good * above + 1e-9), Level::fair) << judged.item;
     EXPECT_EQ(level(judged, judged.fair), Level::fair) << judged.item;
     EXPECT_EQ(level(judged, judged.fair * above), Level::poor) << judged.item;
   }
+}
+
+TEST(Verdict, CallsABodyFrozenThatItsBonesDoNotMove) {
+  std::vector<FrameMetrics> frames(2);
+  for (FrameMetrics& frame : frames)
+    frame.bone_angle = 40, frame.displacement_max = 0.3 * r, frame.work_of_world = 0;
+  Summary summary = summarize(frames, r);
+  summary.residual_rms = 0;  // which a body has that never moved
+  EXPECT_EQ(verdict(frames, summary, r, 1000)[4].meaning, "frozen: its bones move nothing");
+  EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::poor);
+  frames[1].work_of_world = 1e-9;  // a machine that strains it by little
+  EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::good);
+  frames[1].work_of_world = 0;
+  frames[0].displacement_max = 1.1 * r;
+  EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::good);
+  for (FrameMetrics& frame : frames) frame.displacement_max = 0, frame.bone_angle = not_measured;
+  EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::good);  // no bone that could
+}
+
+TEST(Report, OpensWithHowARunBrokeOff) {
+  ReportInput input = some_report(3);
+  EXPECT_EQ(report_html(input).find("role=\"alert\""), std::string::npos);
+  input.end = {RunEnd::Kind::broke, 0.3, 1.2, "step 7: particle 5 on bone <Hips>; use a shorter"};
+  const std::string page = report_html(input);
+  const std::size_t band = page.find("class=\"band broke\"");
+  ASSERT_NE(band, std::string::npos);
+  EXPECT_LT(band, page.find("<h1>"));
+  EXPECT_NE(page.find("particle 5 on bone &lt;Hips&gt;"), std::string::npos);
+  EXPECT_NE(page.find("broke off after 0.3 s of 1.2 s"), std::string::npos);
 }
 
 TEST(Verdict, ScalesTheResidualToo) {
@@ -301,7 +332,7 @@ TEST(Verdict, ScalesTheResidualToo) {
                                         {1.0, Level::fair},
                                         {1.01, Level::poor}}) {
     summary.residual_rms = residual * r;
-    EXPECT_EQ(verdict(frames, summary, r)[4].level, level) << residual;
+    EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, level) << residual;
   }
 }
 

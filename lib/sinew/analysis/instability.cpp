@@ -41,13 +41,15 @@ class Diagnosis {
         step_(failed.stepping.step),
         limit_(limit_of(failed)) {}
 
+  bool is_over_limit() const { return limit_ > 0 && step_ > limit_; }
+  bool is_of_all_steps() const { return is_over_limit() || weight() > strong; }
+
   std::string text() const {
-    if (limit_ > 0 && step_ > limit_)
+    if (is_over_limit())
       return "the step of " + three_digits(step_) + " s is over the limit of the body at rest, " +
              three_digits(limit_) + " s; use " + step_text(limit_ / 2);
-    const double weight = by_force(failed_.particles.mass * failed_.stepping.gravity);
-    if (weight > strong)
-      return "gravity alone moves it " + in_a_step(weight) +
+    if (weight() > strong)
+      return "gravity alone moves it " + in_a_step(weight()) +
              "; give solver.gravity in m/s^2 (9.81 on earth), or a stiffer material";
     std::string by_bone = cause_by_bone();
     if (!by_bone.empty()) return by_bone;
@@ -61,6 +63,7 @@ class Diagnosis {
   double by_force(const Vec3& force) const {
     return force.norm() / failed_.particles.mass * step_ * step_ / failed_.particles.radius;
   }
+  double weight() const { return by_force(failed_.particles.mass * failed_.stepping.gravity); }
   Vec3 position() const { return failed_.particles.position(i_); }
 
   std::string cause_by_bone() const {
@@ -130,6 +133,10 @@ class Diagnosis {
 };
 
 }  // namespace
+
+bool is_of_all_steps(const FailedStep& failed, std::size_t particle) {
+  return Diagnosis(failed, particle).is_of_all_steps();
+}
 
 std::string cause_and_cure(const FailedStep& failed, std::size_t particle) {
   return Diagnosis(failed, particle).text();

@@ -24,6 +24,10 @@ struct FailedStep {
   const Stepping& stepping;
 };
 
+/// Whether the particle (by place) did it because of a step over the limit of the body at rest, or
+/// of gravity that no stiffness bears: it is for the scene to mend, not for shorter steps.
+bool is_of_all_steps(const FailedStep& failed, std::size_t particle);
+
 /// "cause; cure" of what one of the particles (by place) did: gravity, a bone that is too fast or
 /// has left it, an obstacle, fields or muscles, else a step that is too long. The cure names a step
 /// where a shorter one helps.

@@ -26,6 +26,12 @@ class EnergyLedger {
     last_ = step_;
   }
 
+  /// Adds work and losses of a moment, J.
+  void add(double work, double lost) {
+    now_.work += work;
+    now_.dissipation += lost;
+  }
+
   /// Until a moment with that power, J.
   double work_until(double power) const {
     return now_.begun ? now_.work + last_ * (now_.power + power) / 2 : now_.work;

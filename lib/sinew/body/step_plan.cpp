@@ -58,6 +58,14 @@ int StepPlan::intervals_begun(std::int64_t n) const {
                           (n - first_.back() + per_interval_ - 1) / per_interval_);
 }
 
+StepPlan StepPlan::divided(int index, int by) const {
+  std::vector<int> parts = parts_;
+  const auto at = static_cast<std::size_t>(index);
+  if (parts.size() <= at) parts.resize(at + 1, 1);
+  parts[at] *= by;
+  return {step_, per_interval_, std::move(parts), last_};
+}
+
 int StepPlan::parts(int index) const {
   return static_cast<std::size_t>(index) < parts_.size() ? parts_[static_cast<std::size_t>(index)]
                                                          : 1;

@@ -24,8 +24,9 @@ struct Stepping {
   NeighborSearch neighbor_search = NeighborSearch::lists;
 };
 
-// A bond that snaps drives a particle by (b - a) sqrt(k lambda / 3m) dt, 0.1 r at half the limit;
-// faster than several bonds at once is only an unstable run.
+// A bond that snaps drives a particle by (b - a) sqrt(k lambda / 3m) dt, 0.1 r at half the limit.
+// Faster than several bonds at once is an unstable step, or a particle that snaps out between two
+// parts that press on it: over a radius, at sqrt(k/m) r.
 inline constexpr double max_radii_per_step = 0.25;
 
 /// Steps of an interval before they are divided.
@@ -52,6 +53,10 @@ class StepPlan {
   std::int64_t steps_until(int index) const;
   /// Intervals that have begun before step `n`.
   int intervals_begun(std::int64_t n) const;
+
+  /// The same with the steps of one interval divided into so many times as many. Only of a plan in
+  /// intervals.
+  StepPlan divided(int index, int by) const;
 
   /// Into how many parts the steps of an interval are divided.
   int parts(int index) const;

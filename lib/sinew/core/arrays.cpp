@@ -83,6 +83,8 @@ std::vector<WrittenArray> table_of_particles() {
        "number of neighbors within the range b; of solids, bonded or touching"},
       {"particles", point, "broken_bonds", "1", one, whole, plain,
        "number of its broken bonds, if the material has bonds"},
+      {"particles", point, "limited", "1", one, whole, plain,
+       "how often its speed was limited since the frame before, in frames in which any was"},
       {"particles", field, "kinetic_energy", "J", one, exact, plain, "kinetic energy"},
       {"particles", field, "pair_energy", "J", one, exact, plain, "elastic energy of all pairs"},
       {"particles", field, "bone_energy", "J", one, exact, plain,

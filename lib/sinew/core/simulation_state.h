@@ -109,6 +109,22 @@ struct EvenSteps {
   double made = 0;             ///< the step made last, s
 };
 
+/// What limits of the particles' speed, relative to their bones, have taken from a body.
+struct LimitedSpeeds {
+  std::vector<std::int32_t> in_frame = {};  ///< times of each, by place; empty: none
+  std::int64_t times = 0;                   ///< since the start
+  double energy = 0;                        ///< lost since then, J; part of the dissipation
+  Vec3 impulse = Vec3::Zero();              ///< of their bones on them since then, N s
+};
+
+/// State of who takes frames anew in which steps fail.
+struct GuardState {
+  std::vector<std::int32_t> divided = {};  ///< by two: a frame, by what its steps were divided
+  std::int32_t divisor = 1;                ///< of the present frame
+  bool lenient = false;                    ///< particles may snap, as long as energies balance
+  double residual = 0, turnover = 0;       ///< of the balance when that began, J
+};
+
 struct SimulationState {
   std::int64_t steps = 0;
   EvenSteps even;
@@ -129,8 +145,10 @@ struct SimulationState {
   std::vector<double> branch_clocks;
   std::vector<double> branch_stretches;
   RelaxationState relaxation = {};
-  /// Where the present increment began; none: here, or nothing relaxes.
-  std::shared_ptr<const SimulationState> increment_begun = {};
+  LimitedSpeeds limited = {};
+  GuardState guard = {};
+  /// Where the present frame, or increment of a relaxation, began; none: here.
+  std::shared_ptr<const SimulationState> begun = {};
   /// Terms of each group: how many, then their coefficients of places (m) and of velocities.
   std::vector<double> groups = {};
   std::vector<std::int32_t> grouping = {};  ///< by particle id, where groups change

@@ -11,6 +11,7 @@
 #include <sinew/core/text.h>
 #include <sinew/render/figure.h>
 #include <sinew/render/movie.h>
+#include <sinew/run/run_record.h>
 #include <sinew/run/world_shown.h>
 #include <sinew/scene/check.h>
 
@@ -65,7 +66,7 @@ std::string grouped_by_thousands(std::size_t count) {
 std::string subject_of(const DrawnRun& run) {
   const Particles& particles = run.files().body.particles;
   const bool paper = run.files().settings.material.model == MaterialModel::paper;
-  return run.name() + ":  " + grouped_by_thousands(particles.size()) +
+  return scene_name(run.files().folder) + ":  " + grouped_by_thousands(particles.size()) +
          " particles of radius r = " + three_digits(1e3 * particles.radius) + " mm, " +
          (paper ? "the paper's material" : "bonded");
 }

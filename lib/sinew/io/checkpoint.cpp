@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
-constexpr std::uint32_t format_version = 8;
+constexpr std::uint32_t format_version = 9;
 constexpr std::size_t name_size = 8;
-// Twice, where a load is applied in increments. Bonds: 18 neighbors at rest, from both sides;
+// Twice, within a frame or an increment of a load. Bonds: 18 neighbors at rest, from both sides;
 // branches of them; positions, velocities, order.
 constexpr std::size_t max_before_count = 4096;  // bytes
 constexpr std::uint64_t max_bytes_per_particle = 2560, max_bytes_beside = 1 << 20;
@@ -81,6 +81,15 @@ void serialize_state(Archive& archive, State& state) {
   archive("merging", state.regrouping.lost);
   archive("still", state.regrouping.still_since);
   archive("pressed", state.pressed);
+  archive("divided", state.guard.divided);
+  archive("divisor", state.guard.divisor);
+  archive("lenient", state.guard.lenient);
+  archive("residual", state.guard.residual);
+  archive("turnover", state.guard.turnover);
+  archive("limited", state.limited.in_frame);
+  archive("limits", state.limited.times);
+  archive("limitlos", state.limited.energy);
+  archive("limitimp", state.limited.impulse);
 }
 
 template <class State, class Archive>
@@ -93,7 +102,7 @@ void serialize_checkpoint(Archive& archive, State& checkpoint) {
   archive("count", run.particles);
   archive("timestep", run.time_step);
   serialize_state(archive, checkpoint.state);
-  auto& begun = checkpoint.state.increment_begun;
+  auto& begun = checkpoint.state.begun;
   bool has_begun = begun != nullptr;
   archive("hasbegun", has_begun);
   if (!has_begun) return;

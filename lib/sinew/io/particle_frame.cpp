@@ -159,6 +159,7 @@ std::vector<ComputedColumn> columns_of(const ParticleFrame& frame, const Points&
   add_counts("neighbors", frame.neighbors);
   add_forces("force_world", frame.force_world);
   add_counts("broken_bonds", frame.broken_bonds);
+  add_counts("limited", frame.limited);
   return columns.columns();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/bone_metrics.h>
 
+#include <Eigen/Eigenvalues>
 #include <array>
 
 #include <sinew/core/particles.h>
@@ -34,6 +35,10 @@ constexpr std::array bone_table = {
                &B::pose_error_rms},
     BoneMetric{"pose_error_max", "m", "Distance from the rigid pose, maximum", "max |x - q|",
                &B::pose_error_max},
+    BoneMetric{"turn_error", "deg",
+               "Angle between the rotations of the bone and of its particles away from joints, "
+               "from rest; of a dozen particles at least",
+               "angle of Q^T R R0^T, Q the best-fit rotation (Kabsch)", &B::turn_error},
     BoneMetric{"volume", "m^3", "Volume of the strained particles that follow it",
                "sum V0 J, V0 = 4 sqrt(2) r^3, where J is defined", &B::volume},
     BoneMetric{"volume_ratio", "", "The same, relative to rest", "mean J", &B::volume_ratio},
@@ -65,7 +70,21 @@ Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) 
   return miss;
 }
 
+/// Moments of where the particles of a limb are (x) and were at rest (X).
+struct LimbMoments {
+  double count = 0;
+  Vec3 x = Vec3::Zero(), X = Vec3::Zero();
+  Mat3 xX = Mat3::Zero(), XX = Mat3::Zero();
+
+  void add(const Vec3& now, const Vec3& rest) {
+    ++count;
+    x += now, X += rest;
+    xX += now * rest.transpose(), XX += rest * rest.transpose();
+  }
+};
+
 struct Misses {
+  LimbMoments limb;
   Statistics slip, joint, far, radial, twist, pose;
   Statistics volume_joint, volume_far;  ///< of J
   std::vector<double> slips;
@@ -88,6 +107,19 @@ void add_volumes(BoneMetrics& out, const Misses& all, double radius) {
   out.volume_ratio = both.mean();
   out.volume_joint_ratio = all.volume_joint.mean();
   out.volume_far_ratio = all.volume_far.mean();
+}
+
+/// Degrees. Particles along a line have no rotation.
+double turn_error(const LimbMoments& limb, const Mat3& bone_turn, double radius) {
+  constexpr double fewest = 12;
+  if (limb.count < fewest) return not_measured;
+  const Mat3 spread =
+      limb.XX / limb.count - limb.X * limb.X.transpose() / (limb.count * limb.count);
+  const Mat3 moved = limb.xX / limb.count - limb.x * limb.X.transpose() / (limb.count * limb.count);
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread, Eigen::EigenvaluesOnly);
+  if (!moved.allFinite() || axes.eigenvalues()[1] < radius * radius) return not_measured;
+  const Mat3 off = rotation_part(moved).transpose() * bone_turn;
+  return degrees(Eigen::AngleAxisd(off).angle());
 }
 
 BoneMetrics summed(Misses& all, double time, std::size_t bone) {
@@ -120,6 +152,8 @@ std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& s
     const Bound& bound = rest.bound[k];
     Misses& bone = bones[bound.bone];
     add(bone, misses[k], bound.far);
+    if (bound.far)
+      bone.limb.add(state.positions[bound.particle], rest.shape.points[bound.particle]);
     const double J = particles.J[bound.particle];
     if (!std::isnan(J)) (bound.far ? bone.volume_far : bone.volume_joint).add(J);
   }
@@ -127,6 +161,9 @@ std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& s
   for (std::size_t b = 0; b < bones.size(); ++b) {
     out.push_back(summed(bones[b], state.time, b));
     add_volumes(out.back(), bones[b], rest.radius);
+    out.back().turn_error =
+        turn_error(bones[b].limb, state.bones[b].rotation * rest.bones[b].rest.rotation.transpose(),
+                   rest.radius);
   }
   return out;
 }

@@ -23,6 +23,7 @@ struct BoneMetrics {
   double adherence_joint_rms = not_measured, adherence_far_rms = not_measured;
   double radial_mean = not_measured, twist_rms = not_measured, twist_mean = not_measured;
   double pose_error_rms = not_measured, pose_error_max = not_measured;
+  double turn_error = not_measured;
   double volume = not_measured, volume_ratio = not_measured;
   double volume_joint_ratio = not_measured, volume_far_ratio = not_measured;
 };

@@ -22,6 +22,7 @@ struct ComparedRun {
   std::vector<FrameMetrics> frames;  ///< at the times that both have, one at least
   Summary summary;                   ///< of all its frames
   double radius = 0;                 ///< of a particle, m
+  std::size_t particles = 0;
 };
 
 struct RunComparison {

@@ -73,6 +73,7 @@ struct FrameMetrics {
   double edge_stretch_max = not_measured, area_stretch_max = not_measured;
   double conformal_max = not_measured, symmetric_dirichlet = not_measured;
   double flipped_faces = not_measured;
+  double limb_turn_max = not_measured;
   double tip_angle = not_measured, twist_jump_max = not_measured;
   double candy_wrapper = not_measured, bulge = not_measured;
   // Metrics that need other surfaces or exact geometry: see <sinew/run/measure_run.h>.

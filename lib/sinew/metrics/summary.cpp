@@ -163,9 +163,11 @@ constexpr Scale volume_scale{
     0.02, 0.1, {"keeps its volume", "volume changes visibly", "collapses"}};
 constexpr Scale pose_scale{2, 5, {"follows its bones", "lags behind its bones", "lost its bones"}};
 constexpr Scale broken_scale{0.01, 0.05, {"stays in one piece", "flows a little", "breaks apart"}};
-constexpr Scale inverted_scale{0, 3, {"nothing is inside out", "a few folds", "folds into itself"}};
+constexpr Scale inverted_scale{
+    0.001, 0.01, {"hardly anything is inside out", "a few folds", "folds into itself"}};
 constexpr Scale residual_scale{0.2, 1, {"returns to its shape", "keeps a trace", "stays deformed"}};
-constexpr Scale tip_scale{1, 5, {"turns with its bone", "turns a little off", "does not follow"}};
+constexpr Scale limb_scale{
+    5, 20, {"each limb turns with its bone", "a limb is turned a little off", "does not follow"}};
 
 VerdictItem judged(const char* label, double value, const std::string& text, const Scale& scale) {
   VerdictItem item{label, text, "not measured", Level::unknown};
@@ -180,18 +182,37 @@ std::string with_unit(double value, int decimals, const char* unit) {
 }
 
 VerdictItem last_item(std::span<const FrameMetrics> frames, const Summary& summary, double radius) {
+  if (is_frozen(frames, radius))
+    return {"largest displacement",
+            with_unit(summary.metrics[metric_index("displacement_max")].max / radius, 2, " r"),
+            "frozen: its bones move nothing", Level::poor};
   const double residual = summary.residual_rms / radius;
   if (!std::isnan(residual))
     return judged("residual after the return", residual, with_unit(residual, 2, " r"),
                   residual_scale);
-  const double tip = frames.back().tip_angle, off = std::abs(tip - frames.back().bone_angle);
-  return judged("rotation of the tip at the end", off, with_unit(tip, 1, "°"), tip_scale);
+  const double off = frames.back().limb_turn_max;
+  return judged("between a limb and its bone, at the end", off, with_unit(off, 1, "°"), limb_scale);
+}
+
+VerdictItem inverted_item(double particles_inverted, std::size_t particles) {
+  const double share = particles_inverted / static_cast<double>(particles);
+  VerdictItem item = judged("inverted particles, at a time", share,
+                            with_unit(100 * share, share < 0.001 ? 3 : 2, " %"), inverted_scale);
+  if (share == 0) item.value = "0", item.meaning = "nothing is inside out";
+  return item;
 }
 
 }  // namespace
 
+bool is_frozen(std::span<const FrameMetrics> frames, double radius) {
+  return std::none_of(frames.begin(), frames.end(), [&](const FrameMetrics& frame) {
+    const bool driven = std::isfinite(frame.work_of_world) && frame.work_of_world != 0;
+    return driven || std::isnan(frame.bone_angle) || !(frame.displacement_max < radius);
+  });
+}
+
 std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const Summary& summary,
-                                   double radius) {
+                                   double radius, std::size_t particles) {
   const auto worst = [&](const char* name) { return summary.metrics[metric_index(name)].max; };
   const double volume = worst("volume_error"), pose = worst("pose_error_far_rms") / radius;
   const double inverted = worst("inverted"), bonds = worst("broken_bonds");
@@ -202,24 +223,25 @@ std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const S
       judged("from the rigid pose, away from joints", pose, with_unit(pose, 2, " r"), pose_scale),
       judged(bonded ? "broken bonds" : "broken neighbors", broken, with_unit(100 * broken, 2, " %"),
              broken_scale),
-      judged("inverted particles", inverted, with_unit(inverted, 0, ""), inverted_scale),
-      last_item(frames, summary, radius)};
+      inverted_item(inverted, particles), last_item(frames, summary, radius)};
 }
 
 std::string reasons_for_distrust(std::span<const FrameMetrics> frames, const Summary& summary,
                                  double radius, std::size_t particles) {
   constexpr double max_inverted = 0.01;  // of the particles
-  const auto items = verdict(frames, summary, radius);
-  const auto &volume = items[0], &pose = items[1], &inverted = items[3];
-  const double fraction =
-      summary.metrics[metric_index("inverted")].max / static_cast<double>(particles);
+  const auto items = verdict(frames, summary, radius, particles);
+  const auto &volume = items[0], &pose = items[1];
+  const double count = summary.metrics[metric_index("inverted")].max,
+               fraction = count / static_cast<double>(particles);
   std::string reasons;
   const auto add = [&](bool holds, const std::string& reason) {
     if (holds) reasons += (reasons.empty() ? "" : ", ") + reason;
   };
-  add(fraction > max_inverted, inverted.value + " particles are inverted");
+  add(fraction > max_inverted,
+      fixed(count, 0) + " of " + std::to_string(particles) + " particles are inverted");
   add(volume.level == Level::poor, "the volume is off by " + volume.value);
   add(pose.level == Level::poor, "the body is " + pose.value + " from the pose of its bones");
+  add(is_frozen(frames, radius), "its bones move no particle by a radius");
   return reasons;
 }
 

@@ -76,10 +76,14 @@ struct VerdictItem {
 };
 
 /// Volume error, distance from the rigid pose far from joints, broken neighbors, inverted
-/// particles, and the residual after the return or else the rotation of the tip: each in its worst
-/// frame, the last two at the end. radius in m.
+/// particles, and the residual after the return or else the limb that is turned farthest from its
+/// bone: each in its worst frame, the last at the end. Of a body with bones that nothing moves:
+/// that, in its place. radius in m.
 std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const Summary& summary,
-                                   double radius);
+                                   double radius, std::size_t particles);
+
+/// Whether there are bones, nothing else that acts, and no particle has moved by a radius.
+bool is_frozen(std::span<const FrameMetrics> frames, double radius);
 
 /// Why a run of so many particles is not to be trusted, in one line: over a hundredth of them
 /// inverted at a time, a volume or a distance from the rigid pose that the verdict calls poor. ""

@@ -128,6 +128,10 @@ constexpr std::array metric_table = {
            "mean over area of s1^2 + s2^2 + 1/s1^2 + 1/s2^2", &M::symmetric_dirichlet},
     Metric{"flipped_faces", "", "Faces of the surface that are flipped",
            "count of n . (n_a + n_b + n_c) < 0, normals at the corners", &M::flipped_faces},
+    Metric{"limb_turn_max", "deg",
+           "Largest angle between a bone and its particles away from joints, both as turned from "
+           "rest; of bones with a dozen such particles",
+           "max over the bones of turn_error in metrics_bones.csv", &M::limb_turn_max},
     Metric{"tip_angle", "deg",
            "Rotation of the outermost two half-planes of the last bone, 0 to 180",
            "angle of the best-fit rotation (Kabsch) from rest", &M::tip_angle},
@@ -139,8 +143,10 @@ constexpr std::array metric_table = {
            "1 - min A / A0 over the sections of sections.csv", &M::candy_wrapper},
     Metric{"bulge", "", "Largest gain of area of a section across a bone",
            "max A / A0 - 1 over the sections of sections.csv", &M::bulge},
-    Metric{"self_intersections", "", "Pairs of faces of the surface that intersect or touch",
-           "count, by exact predicates; at most 100000", &M::self_intersections},
+    Metric{"self_intersections", "",
+           "Pairs of faces of the surface that intersect or touch, beyond those at rest",
+           "count, by exact predicates, at most 100000, minus that at rest",
+           &M::self_intersections},
     Metric{"pose_hausdorff", "m",
            "Largest distance between the surface and its rigid pose, in which each point follows "
            "its bone",

@@ -144,8 +144,10 @@ void FrameData::take(Simulation& simulation, double time, bool with_particles) {
     frame.load_reactions = simulation.load_reactions();
   }
   skin_columns_.clear();
-  if (frame.with_particles || !on_skin_.arrays.empty())
+  if (frame.with_particles || !on_skin_.arrays.empty()) {
     frame.broken_bonds = simulation.broken_bonds();
+    frame.limited = simulation.limited().in_frame;
+  }
   frame.grouping = simulation.body().grouping;
   frame.reactions = simulation.reactions_of_bones();
   frame.forces = simulation.take_forces();
@@ -185,6 +187,7 @@ Dataset FrameData::frame_of(Points positions, const ParticleSelection& selection
                             forces.world,
                             body_.material_number,
                             now_.broken_bonds,
+                            now_.limited,
                             {},
                             group_,
                             level_,

@@ -49,7 +49,7 @@ struct FrameMoment {
   Particles particles;          ///< without positions
   Forces forces;
   std::shared_ptr<const Grouping> grouping;
-  std::vector<std::int32_t> broken_bonds;
+  std::vector<std::int32_t> broken_bonds, limited;
   FrameState measured;  ///< what arrays and probes are measured of
   Energies energies;
   Pose pose;

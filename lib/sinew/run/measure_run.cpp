@@ -95,10 +95,11 @@ Triangles read_surface_frame(const std::filesystem::path& file) {
 }
 
 void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameState& state,
-                         const std::optional<SurfaceSeries>& reference) {
+                         const std::optional<SurfaceSeries>& reference, std::size_t at_rest) {
   using M = FrameMetrics;
   const FaceTree surface({state.surface_points, run.surface.faces});
-  out.self_intersections = static_cast<double>(self_intersections(surface).pairs);
+  const std::size_t pairs = self_intersections(surface).pairs;
+  out.self_intersections = static_cast<double>(pairs - std::min(pairs, at_rest));
   add_gap(out, {&M::pose_hausdorff, &M::pose_distance_mean}, surface, rigid_pose(run, state));
   const std::filesystem::path& folder = run.folder.path;
   add_gap(out, {&M::lbs_hausdorff, &M::lbs_distance_mean}, surface,
@@ -128,6 +129,7 @@ struct Course {
   std::vector<std::vector<RigidFrame>> poses;
   std::vector<double> times;
   std::vector<std::vector<std::int64_t>> worst_particles;
+  std::size_t meeting_at_rest = 0;  ///< pairs of faces of the surface
 };
 
 /// Requested arrays, in addition to the run's own series.
@@ -163,14 +165,23 @@ class ValueSeries {
   std::optional<Series> series_;
 };
 
+/// Of the limb that is turned farthest from its bone, degrees.
+double largest_turn(std::span<const BoneMetrics> bones) {
+  Statistics turns;
+  for (const BoneMetrics& bone : bones)
+    if (!std::isnan(bone.turn_error)) turns.add(bone.turn_error);
+  return turns.max();
+}
+
 void measure_one(Measured& measured, Course& course, const RestBody& rest, const RunFiles& run,
                  const FrameState& state, const MeasureOptions& how) {
   const std::size_t i = measured.frames.size();
   MeasuredFrame frame = measure_frame(rest, state);
-  add_surface_metrics(frame.metrics, run, state, how.reference);
+  add_surface_metrics(frame.metrics, run, state, how.reference, course.meeting_at_rest);
+  const std::vector<BoneMetrics> bones = measure_bones(rest, state, frame.particles);
+  frame.metrics.limb_turn_max = largest_turn(bones);
   measured.frames.push_back(frame.metrics);
-  for (const BoneMetrics& bone : measure_bones(rest, state, frame.particles))
-    measured.bones.push_back(bone);
+  measured.bones.insert(measured.bones.end(), bones.begin(), bones.end());
   for (const SectionMetrics& row :
        measure_sections(rest.sections, state.surface_points, state.time))
     measured.sections.push_back(row);
@@ -183,6 +194,7 @@ void measure_one(Measured& measured, Course& course, const RestBody& rest, const
 Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& run,
                       const MeasureOptions& how) {
   Course course;
+  course.meeting_at_rest = self_intersections(run.surface).pairs;
   FramesInOrder frames(run, how.ahead);
   FrameState first = state_at_rest(rest);
   first.von_mises = read_frame(run, 0).von_mises;

@@ -42,9 +42,9 @@ Triangles read_surface_frame(const std::filesystem::path& file);
 
 /// Adds to a frame's metrics: self-intersections, and the distances to the rigid pose, to the
 /// skinned surfaces if the run has written them, and to the reference if it has a frame of that
-/// time.
+/// time. `at_rest`: pairs of faces that intersect at rest, which do not count.
 void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameState& state,
-                         const std::optional<SurfaceSeries>& reference);
+                         const std::optional<SurfaceSeries>& reference, std::size_t at_rest = 0);
 
 struct Measured {
   std::vector<FrameMetrics> frames;

@@ -274,21 +274,35 @@ std::string subject_of(const RunFolder& folder, const Settings& settings) {
   return text + "; sinew " + record.value("version", "") + ", " + record.value("started", "") + '.';
 }
 
-std::string title_of(const RunFolder& folder) {
-  return std::filesystem::absolute(folder.path / ".").lexically_normal().parent_path().filename();
+/// How the run ended, from run.json.
+RunEnd end_of(const RunFolder& folder, const std::vector<FrameMetrics>& frames) {
+  const auto record = read_record(folder);
+  const std::string status = record.value("status", "finished");
+  RunEnd end;
+  if (status == "finished" || frames.empty()) return end;
+  end.kind = status == "unstable" || status == "failed" ? RunEnd::Kind::broke : RunEnd::Kind::waits;
+  end.time = frames.back().time;
+  end.of = record.value("duration", 0.0);
+  if (end.kind == RunEnd::Kind::broke)
+    end.why = record.value("error", "");
+  else
+    end.why = status == "running" ? "It is still in progress." : "Go on with --resume.";
+  return end;
 }
 
 }  // namespace
 
 ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie) {
   ReportInput input;
-  input.title = title_of(run.folder);
+  input.title = scene_name(run.folder);
   input.version = version();
   input.radius = run.body.particles.radius;
+  input.particles = run.ids.empty() ? run.body.particles.size() : run.ids.size();
   input.modulus = run.material.young_modulus();
   try {
     input.facts = facts_of(run.folder, run.body.meta);
     input.subject = subject_of(run.folder, run.settings);
+    input.end = end_of(run.folder, measured.frames);
   } catch (const nlohmann::json::exception&) {
     throw bad_input(Place{run.folder.record().string()}, "is not the record of a run",
                     "run the scene again with --force");

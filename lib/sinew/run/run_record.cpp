@@ -84,6 +84,18 @@ std::string status_of(const RunFolder& folder) {
   return status != record.end() && status->is_string() ? status->get<std::string>() : "";
 }
 
+std::string scene_name(const RunFolder& folder) {
+  const auto record = read_record(folder);
+  const auto words = record.find("command");
+  if (words != record.end() && words->is_array())
+    for (const auto& word : *words) {
+      if (!word.is_string()) continue;
+      const std::filesystem::path path = word.get<std::string>();
+      if (path.extension() == ".yaml" || path.extension() == ".yml") return path.stem();
+    }
+  return std::filesystem::absolute(folder.path / ".").lexically_normal().parent_path().filename();
+}
+
 Error without_frames(const RunFolder& folder) {
   const Place place{folder.path.string()};
   const std::string status = status_of(folder);

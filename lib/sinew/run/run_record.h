@@ -27,6 +27,10 @@ void record_stage(const RunFolder& folder, const std::string& stage, double seco
 /// "status" of the run: running, finished, stopped, unstable, failed; "" without a record.
 std::string status_of(const RunFolder& folder);
 
+/// The name of the scene's file without its ending, from the command in run.json; the folder's
+/// where that has none.
+std::string scene_name(const RunFolder& folder);
+
 /// For a run whose first frame is still to come, or never came: says so, and what to do.
 Error without_frames(const RunFolder& folder);
 /// Throws it where nothing of a first frame is there.

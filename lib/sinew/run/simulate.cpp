@@ -22,6 +22,7 @@
 #include <sinew/scene/rig.h>
 #include <sinew/scene/warnings.h>
 #include <sinew/settings/write_scene.h>
+#include <sinew/stepping/frame_guard.h>
 
 namespace sinew {
 namespace {
@@ -59,18 +60,19 @@ struct Schedule {
 
   /// Frames up to a state; one that lies after the end is not of this run.
   int frames_until(const SimulationState& state) const {
+    const StepPlan made = plan_with(plan, state.guard);
     const std::int64_t moments = state.relaxation.at_rest;
     if (relaxes && (moments < 0 || moments > frames.count + 1))
       throw bad_input("the checkpoint is of load step " + std::to_string(moments) +
                           ", and the run ends with " + std::to_string(frames.count),
                       "begin again with --force");
     if (relaxes) return static_cast<int>(moments);
-    const std::int64_t last = plan.steps_until(frames.count);
+    const std::int64_t last = made.steps_until(frames.count);
     if (state.steps > last)
       throw bad_input("the checkpoint is of step " + std::to_string(state.steps) +
                           ", and the run ends with step " + std::to_string(last),
                       "begin again with --force");
-    return plan.intervals_begun(state.steps + 1);
+    return made.intervals_begun(state.steps + 1);
   }
 };
 
@@ -138,9 +140,13 @@ class Run {
                       std::move(cells)};
     simulation_.emplace(start(std::move(prepared)));
     prepared = Prepared();  // millions of numbers that nobody needs any more
+    if (!schedule_.relaxes && !options_.engine) watch_frames();
     if (state) {
-      simulation_->restore(*state);
       schedule_.there = schedule_.frames_until(*state);
+      if (guard_)
+        guard_->restore(*state, schedule_.there);
+      else
+        simulation_->restore(*state);
       log_.frames(schedule_.there);
     }
     writer_.emplace(folder_.path, scene_.output, simulation_->body(), std::move(around),
@@ -152,6 +158,12 @@ class Run {
                          schedule_.frames.count, pieces());
     simulation_->forces();     // finds the first neighbors: no part of what writing costs
     give_back_freed_memory();  // much more than stepping needs
+  }
+
+  /// Frames in which steps fail are taken anew. Engines stop there.
+  void watch_frames() {
+    guard_.emplace(*simulation_, schedule_.plan);
+    guard_->on_retake = [this](const Retake& why) { log_.retake(why); };
   }
 
   bool ranks_write() const {
@@ -215,17 +227,18 @@ class Run {
   /// Stops after any step. A checkpoint comes after the frame of its moment.
   Exit step_through() {
     Stopwatch watch;
-    const std::int64_t begun = simulation_->steps();
-    for (int frame = schedule_.there;; advance()) {
+    bool has_stepped = false;
+    for (int frame = schedule_.there;; advance(), has_stepped = true) {
       if (is_there(frame)) {
         log_.spend("stepping", watch.lap());
         add_frame(frame);
         log_.spend("writing", watch.lap());  // what the stepping waited for it
         report(frame++);
+        if (guard_ && frame <= schedule_.frames.count) guard_->begin(frame);
       }
       if (frame > schedule_.frames.count) return Exit::done;
       report_iterations(frame);
-      const bool stop = asked_to_stop(simulation_->steps() > begun);
+      const bool stop = asked_to_stop(has_stepped);
       if (!stop && !checkpoints_.due()) continue;
       log_.spend("stepping", watch.lap());
       save();
@@ -238,6 +251,7 @@ class Run {
   bool is_there(int frame) const {
     if (const Relaxation* relaxation = simulation_->relaxation())
       return relaxation->moments() > frame;
+    if (guard_ && frame > 0) return guard_->is_there();
     return simulation_->steps() == schedule_.plan.steps_until(frame);
   }
 
@@ -248,6 +262,7 @@ class Run {
   }
 
   void advance() {
+    if (guard_) return guard_->step();
     if (!elsewhere_) return simulation_->step();
     elsewhere_->advance(*simulation_, [this] {
       if (asked_to_stop(true)) return Interruption::stop;
@@ -278,6 +293,26 @@ class Run {
          "or body.radius");
   }
 
+  void describe_retakes() {
+    if (!guard_) return;
+    const GuardState& guard = guard_->state();
+    const LimitedSpeeds& limited = simulation_->limited();
+    log_.describe(guard, limited);
+    std::string what;
+    if (!guard.divided.empty()) {
+      int divisor = 1;
+      for (std::size_t k = 1; k < guard.divided.size(); k += 2)
+        divisor = std::max(divisor, guard.divided[k]);
+      what = std::to_string(guard.divided.size() / 2) + " of " +
+             std::to_string(schedule_.frames.count) + " frames had shorter steps, down to 1/" +
+             std::to_string(divisor) + ": particles moved too far in one";
+    }
+    if (limited.times > 0)
+      what += "; speeds were limited " + std::to_string(limited.times) + " times, which took " +
+              three_digits(limited.energy) + " J (array limited)";
+    if (!what.empty()) say(options_, what);
+  }
+
   void warn_of_buckling() const {
     if (buckles_at_)
       warn("before " + three_digits(*buckles_at_) +
@@ -303,7 +338,7 @@ class Run {
   }
 
   void save() {
-    checkpoints_.save(*simulation_, *writer_);
+    checkpoints_.save([this] { return guard_ ? guard_->save() : simulation_->save(); }, *writer_);
     log_.checkpoint(simulation_->steps());
   }
 
@@ -321,6 +356,7 @@ class Run {
              "neighbors; place it where the body is thicker");
     warn_of_inverted();
     warn_of_buckling();
+    describe_retakes();
     if (writer_->written() > 0) write_state();
     log_.spend("writing", watch.lap());
   }
@@ -348,6 +384,7 @@ class Run {
   } inverted_;                        ///< in the worst equilibrium
   std::optional<double> buckles_at_;  ///< s
   std::optional<Simulation> simulation_;
+  std::optional<FrameGuard> guard_;
   std::optional<EngineSteps> elsewhere_;
   std::optional<FrameWriter> writer_;
 };

@@ -109,6 +109,18 @@ Box obstacle_space(const Box& body) {
   return Box(body.min() - more, body.max() + more);
 }
 
+/// The particles for which the run broke off, where it has left them.
+void mark_offenders(Playback& playback, const RunFiles& run) {
+  if (status_of(run.folder) != "unstable" || !std::filesystem::exists(run.folder.blowup())) return;
+  const Dataset data = read_vtu(run.folder.blowup(), {"offender"});
+  const Column* column = find(data.point_columns, "offender");
+  const auto* offence = column ? std::get_if<std::vector<std::int32_t>>(&column->values) : nullptr;
+  if (offence == nullptr || offence->size() != playback.run_particles) return;
+  playback.mark_names = {"others", "moved too far in the step that failed", "not finite after it"};
+  for (const std::uint32_t i : playback.particles)
+    playback.mark.push_back(std::clamp((*offence)[i], 0, 2));
+}
+
 void show_world(Playback& playback, const RunFiles& run,
                 const std::function<std::size_t(std::size_t)>& frame_of) {
   const std::vector<std::size_t> held = held_in_frames(run);
@@ -116,6 +128,7 @@ void show_world(Playback& playback, const RunFiles& run,
     if (std::binary_search(held.begin(), held.end(), playback.particles[i]))
       playback.held.push_back(i);
   name_materials(playback, run);
+  mark_offenders(playback, run);
   add_forces(playback, run, frame_of);
   if (run.obstacle_rows.empty() || playback.frames.empty()) return;
   const Box space = obstacle_space(box_of(playback));

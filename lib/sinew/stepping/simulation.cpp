@@ -93,6 +93,7 @@ struct Simulation::Impl {
   std::unique_ptr<DynamicGrouping> dynamic;
   EnergyLedger ledger, world_ledger;
   double held_at_start = 0;  ///< kinetic energy of what pins hold, J
+  LimitedSpeeds limited;
 
   std::vector<Offender> offenders;
   std::vector<TimedPose> moments;  ///< memory of those of the steps
@@ -207,39 +208,97 @@ void Simulation::set_step(double step) {
   its_->world_ledger.set_step(step);
 }
 
-/// Velocities are half a step behind the positions (velocity Verlet's are read half a step later):
-/// from now on half a step of the new size.
-void Simulation::change_step(double step) {
-  evaluate();
-  const bool behind = its_->stepping.integrator != Integrator::explicit_euler && its_->steps > 0;
-  const double later = behind ? (its_->stepping.step - step) / 2 : 0;
+/// At the moment evaluated last.
+Vec3 Simulation::acceleration(std::size_t i) const {
+  return its_->forces.total(i) / mass(i) + its_->stepping.gravity;
+}
+
+/// By so many times `gain`, of a particle by place; m/s.
+void Simulation::add_to_velocities(double by, const std::function<Vec3(std::size_t i)>& gain) {
   SimulationState state = save();
   const double unit = std::holds_alternative<MovingInSingle>(state.moving)
                           ? state.fixed_point_units.length / its_->unit_of_time
                           : 1;
   const auto shift = [&](auto& moving) {
     for (std::size_t k = 0; k < moving.x[0].size(); ++k) {
-      const std::size_t i = state.order.empty() ? k : state.order[k];
-      const Vec3 gain = later / unit * (its_->forces.total(i) / mass(i) + its_->stepping.gravity);
+      const Vec3 added = by / unit * gain(state.order.empty() ? k : state.order[k]);
       for (int axis = 0; axis < 3; ++axis) {
         auto& v = moving.v[axis][k];
-        v = static_cast<std::remove_reference_t<decltype(v)>>(v + gain[axis]);
+        v = static_cast<std::remove_reference_t<decltype(v)>>(v + added[axis]);
       }
     }
   };
   std::visit(shift, state.moving);
   its_->stepper->restore(state);
   its_->stepper->fit_groups();
-  set_step(step);
   forget_read();
 }
 
+/// Velocities are half a step behind the positions (velocity Verlet's are read half a step later):
+/// from now on half a step of the new size.
+void Simulation::change_step(double step) {
+  evaluate();
+  const bool behind = its_->stepping.integrator != Integrator::explicit_euler && its_->steps > 0;
+  const double later = behind ? (its_->stepping.step - step) / 2 : 0;
+  add_to_velocities(later, [&](std::size_t i) { return acceleration(i); });
+  set_step(step);
+}
+
+void Simulation::go_on_by(StepPlan plan) { its_->plan = std::move(plan); }
+
+void Simulation::allow_moves(double radii) { its_->stepper->allow_moves(radii); }
+
+std::size_t Simulation::limit_offenders(double radii) {
+  const double before = energies().stored(), step = its_->stepping.step;
+  const double most = radii * its_->particles.radius / step;
+  const Particles now = particles();
+  LimitedSpeeds& limited = its_->limited;
+  Points gain(now.size(), Vec3::Zero());
+  std::size_t slowed = 0;
+  double work = 0;
+  for (const Offender& one : its_->offenders) {
+    const std::size_t i = one.particle;
+    const int bone = its_->body->binding.bone(static_cast<std::size_t>(now.id[i]));
+    if (!one.finite || bone == no_bone) continue;
+    const Vec3 carried = pose()[static_cast<std::size_t>(bone)].velocity_at(now.position(i));
+    const Vec3 relative = now.velocity(i) + step * acceleration(i) - carried;
+    if (relative.norm() <= most) continue;
+    gain[i] = (most / relative.norm() - 1) * relative;
+    limited.in_frame.resize(now.size());
+    ++limited.in_frame[i];
+    limited.impulse += mass(i) * gain[i];
+    work += mass(i) * gain[i].dot(carried);
+    ++slowed;
+  }
+  if (slowed == 0) return 0;
+  add_to_velocities(1, [&](std::size_t i) { return gain[i]; });
+  its_->evaluated = false;
+  const double lost = before + work - energies().stored();
+  limited.times += static_cast<std::int64_t>(slowed);
+  limited.energy += lost;
+  its_->ledger.add(work, lost);
+  return slowed;
+}
+
+const LimitedSpeeds& Simulation::limited() const { return its_->limited; }
+void Simulation::begin_counting() { its_->limited.in_frame.clear(); }
+
+bool Simulation::is_misjudged() {
+  evaluate();
+  return is_of_all_steps({*its_->body, pose(), time(), particles(), its_->forces, its_->stepping},
+                         worst_offender().particle);
+}
+
 void Simulation::advance(std::int64_t steps) {
+  if (!try_advance(steps)) fail();
+}
+
+bool Simulation::try_advance(std::int64_t steps) {
   while (steps > 0) {
     its_->evaluated = false;
     if (its_->read) forget_read();
     if (its_->increments) {
-      relax_once();
+      if (!relax_once()) return false;
       --steps;
       continue;
     }
@@ -248,10 +307,11 @@ void Simulation::advance(std::int64_t steps) {
       change_step(next);
     its_->evaluated = false;  // of the moment before these
     const std::int64_t count = steps_of_one_size(steps);
-    make_steps(count);
+    if (!make_steps(count)) return false;
     steps -= count;
     check_groups();
   }
+  return true;
 }
 
 /// Returns how many to make at once: until their size changes, or groups are looked at.
@@ -266,7 +326,7 @@ std::int64_t Simulation::steps_of_one_size(std::int64_t most) const {
   return count;
 }
 
-void Simulation::make_steps(std::int64_t count) {
+bool Simulation::make_steps(std::int64_t count) {
   its_->moments.resize(static_cast<std::size_t>(count));
   for (std::int64_t k = 0; k < count; ++k) {
     TimedPose& moment = its_->moments[static_cast<std::size_t>(k)];
@@ -278,10 +338,11 @@ void Simulation::make_steps(std::int64_t count) {
   for (StepSums& one : its_->sums) {
     if (one.failure) {
       its_->offenders = std::move(one.failure->all);
-      fail();
+      return false;
     }
     add(one);
   }
+  return true;
 }
 
 void Simulation::add(const StepSums& sums) {
@@ -291,11 +352,12 @@ void Simulation::add(const StepSums& sums) {
   ++its_->steps;
 }
 
-void Simulation::relax_once() {
+bool Simulation::relax_once() {
   const auto outcome = its_->increments->iterate(*its_->stepper, its_->steps, its_->offenders);
   its_->stepping.step = relaxation()->step();
-  if (outcome == Relaxation::Outcome::failed) fail();
+  if (outcome == Relaxation::Outcome::failed) return false;
   if (outcome == Relaxation::Outcome::moved) ++its_->steps;
+  return true;
 }
 
 /// The present one, as the stepper is told: bones of what relaxes stand still.
@@ -357,9 +419,12 @@ void Simulation::forget_read() const {
   its_->read = false;
 }
 
+const Offender& Simulation::worst_offender() const {
+  return *std::max_element(its_->offenders.begin(), its_->offenders.end(), moved_less);
+}
+
 void Simulation::fail() {
-  const Offender& worst =
-      *std::max_element(its_->offenders.begin(), its_->offenders.end(), moved_less);
+  const Offender& worst = worst_offender();
   const std::int32_t id = its_->particles.id[worst.particle];
   const auto bones = its_->body->binding.of(id);
   evaluate();
@@ -435,8 +500,7 @@ Energies Simulation::energies() {
       parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i) {
-          const Vec3 acceleration = its_->forces.total(i) / mass(i) + its_->stepping.gravity;
-          sum += mass(i) / 2 * (now.velocity(i) + behind * acceleration).squaredNorm();
+          sum += mass(i) / 2 * (now.velocity(i) + behind * acceleration(i)).squaredNorm();
         }
         return sum;
       });
@@ -509,6 +573,7 @@ SimulationState Simulation::save() const {
   state.ledger = its_->ledger.entries();
   state.world_ledger = its_->world_ledger.entries();
   state.held_at_start = its_->held_at_start;
+  state.limited = its_->limited;
   if (its_->increments) its_->increments->save(state);
   if (its_->dynamic)
     state.grouping = its_->body->grouping->group, state.regrouping = its_->dynamic->state();
@@ -520,6 +585,10 @@ void Simulation::restore(const SimulationState& state) {
   if (!is_finite(state.ledger) || !is_finite(state.world_ledger) ||
       !std::isfinite(state.held_at_start))
     throw not_a_state("its energies are not finite");
+  const LimitedSpeeds& limited = state.limited;
+  if (!std::isfinite(limited.energy) || !limited.impulse.allFinite() ||
+      (!limited.in_frame.empty() && limited.in_frame.size() != its_->body->rest.size()))
+    throw not_a_state("what it says of limited speeds is not valid");
   if (its_->increments) its_->increments->restore(*its_->stepper, state);
   if (its_->dynamic) {
     Grouping grouping = its_->dynamic->grouping_of(state.grouping);
@@ -540,6 +609,7 @@ void Simulation::restore(const SimulationState& state) {
   its_->ledger.restore(state.ledger, last);
   its_->world_ledger.restore(state.world_ledger, last);
   its_->held_at_start = state.held_at_start;
+  its_->limited = state.limited;
   its_->evaluated = false;
   forget_read();
 }

@@ -85,8 +85,27 @@ class Simulation {
   /// The particles stay where they were before the step; bonds that broke in it stay broken.
   void step() { advance(1); }
   void advance(std::int64_t steps);
+  /// The same, but returns false at a step that fails.
+  bool try_advance(std::int64_t steps);
+  /// Throws because of the worst of the offenders.
+  [[noreturn]] void fail();
   /// Lists those of the step that failed, in the order of the particles.
   const std::vector<Offender>& offenders() const;
+  /// What they did tells that all steps are too long, or gravity in a wrong unit.
+  bool is_misjudged();
+
+  // For who tries steps again (frame_guard.h).
+
+  /// Goes on by a plan in which the steps so far are the same.
+  void go_on_by(StepPlan plan);
+  /// Lets particles move so far in a step, in radii, before it fails.
+  void allow_moves(double radii);
+  /// Slows the offenders, relative to their bones, so that each will move about that far in the
+  /// next step, in radii; returns how many. The loss is part of the dissipation, and the work that
+  /// their bones do on them part of the bones'.
+  std::size_t limit_offenders(double radii);
+  const LimitedSpeeds& limited() const;
+  void begin_counting();  ///< of `in_frame`
 
   double time() const;  ///< s
   std::int64_t steps() const;
@@ -141,9 +160,9 @@ class Simulation {
   void evaluate();
   double mass(std::size_t i) const;
   std::int64_t steps_of_one_size(std::int64_t most) const;
-  void make_steps(std::int64_t count);
+  bool make_steps(std::int64_t count);
   void add(const StepSums& sums);
-  void relax_once();
+  bool relax_once();
   void check_groups();
   void take(NewGroups made);
   void move_in(Grouping grouping);
@@ -151,7 +170,9 @@ class Simulation {
   void forget_read() const;
   void set_step(double step);
   void change_step(double step);
-  [[noreturn]] void fail();  ///< because of the worst of the offenders
+  void add_to_velocities(double by, const std::function<Vec3(std::size_t i)>& gain);
+  const Offender& worst_offender() const;
+  Vec3 acceleration(std::size_t i) const;
 
   std::unique_ptr<Impl> its_;
 };

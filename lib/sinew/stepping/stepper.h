@@ -96,6 +96,8 @@ class Stepper {
   virtual void advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) = 0;
   /// Sets the size of the steps that follow, s; velocities stay as they are.
   virtual void set_step(double step) = 0;
+  /// Lets particles move so far in a step, in radii, before it fails; initially max_radii_per_step.
+  virtual void allow_moves(double) {}
 
   // What is asked for at a moment that no step has left behind.
 

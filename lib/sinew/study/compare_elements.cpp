@@ -272,9 +272,10 @@ class RunInElements {
     add_supports_of_run();
     const double radius = rest_.radius;
     RunComparison& metrics = out_.metrics;
-    metrics = sinew::compare(
-        {out_.name, elements_frames_, summarize(elements_frames_, radius), radius},
-        {name_of_run(run_.folder.path), run_frames_, summarize(run_frames_, radius), radius});
+    metrics = sinew::compare({out_.name, elements_frames_, summarize(elements_frames_, radius),
+                              radius, rest_.particles()},
+                             {name_of_run(run_.folder.path), run_frames_,
+                              summarize(run_frames_, radius), radius, rest_.particles()});
     metrics.remarks.push_back("a is the body of " + metrics.second.name +
                               ", each particle and point of the surface moved as " + out_.name +
                               " says (" + std::to_string(out_.elements) + " elements, " +

@@ -151,7 +151,11 @@ std::optional<double> speedup_of(const Side& first, const Side& second) {
 }
 
 ComparedRun compared_run(const Side& side, const std::vector<Pair>& pairs, std::size_t which) {
-  ComparedRun run{name_of_run(side.run.folder.path), {}, side.measured.summary, side.rest.radius};
+  ComparedRun run{name_of_run(side.run.folder.path),
+                  {},
+                  side.measured.summary,
+                  side.rest.radius,
+                  side.rest.particles()};
   for (const Pair& pair : pairs) run.frames.push_back(side.measured.frames[pair[which]]);
   return run;
 }

@@ -35,7 +35,8 @@ std::string remarks(const RunComparison& compared) {
 }
 
 std::string verdict_of(const ComparedRun& run, const std::string& name) {
-  return element("h2", escaped(name)) + verdict_cards(run.frames, run.summary, run.radius);
+  return element("h2", escaped(name)) +
+         verdict_cards(run.frames, run.summary, run.radius, run.particles);
 }
 
 /// One metric of both runs in one chart.

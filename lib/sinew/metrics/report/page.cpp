@@ -237,10 +237,22 @@ std::string page_html(const Page& page) {
                                        "lang=\"en\"");
 }
 
+std::string end_band(const RunEnd& end) {
+  if (end.kind == RunEnd::Kind::finished) return "";
+  const bool broke = end.kind == RunEnd::Kind::broke;
+  const std::string times = readable(end.time) + " s of " + readable(end.of) + " s";
+  const std::string what = broke ? "This run broke off after " + times +
+                                       ": what follows is of "
+                                       "the frames before."
+                                 : "This run has come to " + times + ".";
+  return element("section", element("b", what) + element("p", escaped(end.why)),
+                 std::string("role=\"alert\" class=\"band ") + (broke ? "broke" : "waits") + '"');
+}
+
 std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& summary,
-                          double radius) {
+                          double radius, std::size_t particles) {
   std::string cards;
-  for (const VerdictItem& item : verdict(frames, summary, radius)) {
+  for (const VerdictItem& item : verdict(frames, summary, radius, particles)) {
     if (item.level == Level::unknown) continue;  // a body without bones has no pose to follow
     const std::string kind = std::string("class=\"word ") + name_of(item.level) + '"';
     cards += element("div",

@@ -62,9 +62,11 @@ struct Page {
 /// The whole page, UTF-8, with its style, script and libraries.
 std::string page_html(const Page& page);
 
+/// Says how a run ended that did not reach its end; "" of any other.
+std::string end_band(const RunEnd& end);
 /// The cards of what the verdict could judge; radius in m.
 std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& summary,
-                          double radius);
+                          double radius, std::size_t particles);
 
 /// Heading and table; empty without checks.
 std::string checks_table(std::span<const Check> checks);

@@ -54,6 +54,8 @@ struct Playback {
   std::vector<int> bone;           ///< that each of them follows, -1 for none
   std::vector<int> material = {};  ///< of each of them, a number of a name; empty: unknown
   std::vector<std::string> material_names = {};
+  std::vector<int> mark = {};  ///< of each of them, a number of a name; empty: nothing is marked
+  std::vector<std::string> mark_names = {};
   std::vector<std::uint32_t> held = {};   ///< indices of those that are held, into `particles`
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points

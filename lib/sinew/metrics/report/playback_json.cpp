@@ -167,6 +167,8 @@ std::string playback_json(const Playback& playback) {
                      {"boneColor", playback.bone_color},
                      {"material", numbers(playback.material)},
                      {"materialNames", playback.material_names},
+                     {"mark", numbers(playback.mark)},
+                     {"markNames", playback.mark_names},
                      {"surface", places_of(playback, cube, &PlaybackFrame::surface)},
                      {"corners", corners_of(playback)},
                      {"bones", places_of(playback, cube, &PlaybackFrame::bones)},

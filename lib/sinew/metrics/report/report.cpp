@@ -142,7 +142,8 @@ std::string report_html(const ReportInput& input) {
   if (input.frames.empty())
     throw bad_input("a report needs a frame at least", "measure a run that has written frames");
   const std::string body =
-      header(input) + verdict_cards(input.frames, input.summary, input.radius) +
+      end_band(input.end) + header(input) +
+      verdict_cards(input.frames, input.summary, input.radius, input.particles) +
       checks_table(input.checks) + playback_section(input) + pictures(input) +
       machine_section(input.machine) + charts_section(!input.playback.frames.empty()) +
       curves_section(input) + metrics_tables(input.frames, input.summary) +

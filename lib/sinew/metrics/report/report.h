@@ -49,6 +49,13 @@ struct MachineColumn {
   std::vector<double> values;
 };
 
+/// How a run ended.
+struct RunEnd {
+  enum class Kind { finished, waits, broke } kind = Kind::finished;  ///< waits: can be resumed
+  double time = 0, of = 0;  ///< its last frame, and what was asked for, s
+  std::string why;          ///< cause and cure; empty where it is finished
+};
+
 /// Texts are plain; the page escapes them.
 struct ReportInput {
   std::string title;    ///< the scene's name
@@ -56,6 +63,8 @@ struct ReportInput {
   std::string version;  ///< of sinew
   double radius = 0;    ///< of a particle, m
   double modulus = 0;   ///< Young's, Pa; 0: not known
+  std::size_t particles = 0;
+  RunEnd end;
   std::vector<FactGroup> facts;
   std::vector<FrameMetrics> frames;  ///< one at least
   Summary summary;                   ///< of these frames

@@ -143,9 +143,10 @@ std::optional<SimulationState> RunCheckpoints::resume(const RunIdentity& run,
   return std::move(found->state);
 }
 
-void RunCheckpoints::save(const Simulation& simulation, FrameWriter& frame_writer) {
+void RunCheckpoints::save(const std::function<SimulationState()>& state,
+                          FrameWriter& frame_writer) {
   frame_writer.then([&]() -> Background::Job {
-    auto checkpoint = std::make_shared<const Checkpoint>(Checkpoint{run_, simulation.save()});
+    auto checkpoint = std::make_shared<const Checkpoint>(Checkpoint{run_, state()});
     return [this, checkpoint] { checkpoints_.write(*checkpoint); };
   });
   since_ = Stopwatch();

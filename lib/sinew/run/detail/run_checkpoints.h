@@ -2,9 +2,10 @@
 // Writes checkpoints at intervals while a run proceeds, and restores the state for --resume.
 //
 //     RunCheckpoints checkpoints(folder, settings);
-//     if (checkpoints.due()) checkpoints.save(simulation, frame_writer);
+//     if (checkpoints.due()) checkpoints.save([&] { return simulation.save(); }, frame_writer);
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -36,8 +37,8 @@ class RunCheckpoints {
   bool due() const { return since_.seconds() >= interval_; }
   /// Whether the run has used up its wall time.
   bool out_of_time() const { return limit_ && begun_.seconds() >= *limit_; }
-  /// Hands a checkpoint to the frame writer, which writes it after the earlier frames.
-  void save(const Simulation& simulation, FrameWriter& frame_writer);
+  /// Hands a checkpoint of the state to the frame writer, which writes it after the earlier frames.
+  void save(const std::function<SimulationState()>& state, FrameWriter& frame_writer);
 
  private:
   Checkpoints checkpoints_;

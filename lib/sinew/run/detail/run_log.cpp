@@ -208,6 +208,23 @@ void RunLog::frame(int frame, double time) {
   log("frame " + std::to_string(frame) + " at " + number_text(time) + " s");
 }
 
+void RunLog::retake(const Retake& why) {
+  log("frame " + std::to_string(why.frame) + " is taken anew with steps of 1/" +
+      std::to_string(why.divisor) + ": " +
+      (why.moved_too_far
+           ? "a particle moved too far in one"
+           : "its energies are out of balance by " + three_digits(100 * why.residual) + " %"));
+}
+
+void RunLog::describe(const GuardState& guard, const LimitedSpeeds& limited) {
+  auto& list = record_["taken_anew"] = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k + 1 < guard.divided.size(); k += 2)
+    list.push_back({{"frame", guard.divided[k]}, {"divisor", guard.divided[k + 1]}});
+  record_["limited"] = limited.times;
+  record_["limited_energy"] = limited.energy;
+  record_["limited_impulse"] = {limited.impulse.x(), limited.impulse.y(), limited.impulse.z()};
+}
+
 void RunLog::load_step(int frame, const Equilibrium& found) {
   record_["load_steps"].push_back({{"frame", frame},
                                    {"iterations", found.iterations},

@@ -15,6 +15,7 @@
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/steps.h>
 #include <sinew/settings/settings.h>
+#include <sinew/stepping/frame_guard.h>
 
 namespace sinew {
 
@@ -35,11 +36,14 @@ class RunLog {
   /// Writes run.json with the progress of the run. Throws not written.
   void checkpoint(std::int64_t steps);
   void frame(int frame, double time);
+  void retake(const Retake& why);
   /// How the body came to rest in a frame.
   void load_step(int frame, const Equilibrium& found);
   /// Sets the number of frames, where a failure has left fewer than were begun.
   void frames(int written);
 
+  /// Describes the steps of frames that were taken anew, and the speeds that were limited.
+  void describe(const GuardState& guard, const LimitedSpeeds& limited);
   /// Writes run.json with the results of `simulation`. Throws not written.
   void end(const std::string& status, const Simulation& simulation);
   /// Records the end of a run that threw, as far as the disk permits.

@@ -290,7 +290,7 @@ Vec3 CellStepper::moved(std::size_t i, const Particle& before, const Pose& pose)
 }
 
 bool CellStepper::sound(std::size_t i, const Particle& before, const Pose& pose) const {
-  const double most = max_radii_per_step * particles_.radius;
+  const double most = max_radii_ * particles_.radius;
   // Also false for values that are not numbers.
   return moved(i, before, pose).squaredNorm() <= most * most && particles_.position(i).allFinite();
 }

@@ -26,6 +26,7 @@ class CellStepper final : public Stepper {
 
   void advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) override;
   void set_step(double step) override { stepping_.step = step; }
+  void allow_moves(double radii) override { max_radii_ = radii; }
   Balance evaluate(const TimedPose& now, Forces& forces) override;
   void read(const TimedPose& now, Particles& particles) override;
   WorldReactions reactions() const override {
@@ -77,6 +78,7 @@ class CellStepper final : public Stepper {
   std::vector<bool> is_held_;       ///< empty without pins
   std::vector<std::size_t> place_;  ///< of a particle, by id; empty without a world
   bool kicked_ = false;  ///< velocities are half a step behind positions (velocity Verlet)
+  double max_radii_ = max_radii_per_step;
 };
 
 }  // namespace sinew

@@ -110,7 +110,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.drift = real(dt / T);
   step.middle = real(dt / T / 2);
   step.drift_first = stepping_.integrator == Integrator::explicit_euler;
-  const double most = layout_.units().velocity(max_radii_per_step * pair.r / dt);
+  const double most = layout_.units().velocity(max_radii_ * pair.r / dt);
   step.most = real(most * most);
   step.totals = totals_.data();
   return step;
@@ -473,7 +473,7 @@ void ListStepper<Real>::find_flow(const kernel::Step<Real>& now) {
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
   Failure failure;
-  const double most = max_radii_per_step * body_->material.pair.r *
+  const double most = max_radii_ * body_->material.pair.r *
                       (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < layout_.caller().size(); ++k) {

@@ -33,6 +33,7 @@ class ListStepper final : public Stepper {
 
   void advance(std::span<const TimedPose> begins, std::vector<StepSums>& sums) override;
   void set_step(double step) override;
+  void allow_moves(double radii) override { max_radii_ = radii; }
   Balance evaluate(const TimedPose& now, Forces& forces) override;
   void read(const TimedPose& now, Particles& particles) override;
   WorldReactions reactions() const override;
@@ -118,6 +119,7 @@ class ListStepper final : public Stepper {
   double sorting_ = 0;  ///< s
   std::vector<kernel::Totals> totals_;
   bool stepped_ = false;  ///< and the lists have not followed
+  double max_radii_ = max_radii_per_step;
 };
 
 }  // namespace sinew

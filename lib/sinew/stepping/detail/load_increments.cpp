@@ -154,7 +154,7 @@ Relaxation::Outcome LoadIncrements::solve(Stepper& stepper) {
 
 void LoadIncrements::save(SimulationState& state) const {
   state.relaxation = relaxation_.state();
-  state.increment_begun = begun_;
+  state.begun = begun_;
 }
 
 void LoadIncrements::restore(Stepper& stepper, const SimulationState& state) {
@@ -164,13 +164,13 @@ void LoadIncrements::restore(Stepper& stepper, const SimulationState& state) {
     stepper.restore(there);
   };
   steps_ = state.steps;
-  if (state.increment_begun && state.increment_begun != begun_) {
-    go_to(*state.increment_begun);
+  if (state.begun && state.begun != begun_) {
+    go_to(*state.begun);
     begin(stepper);
-    begun_ = state.increment_begun;
+    begun_ = state.begun;
   }
   go_to(state);
-  if (!state.increment_begun) begin(stepper);
+  if (!state.begun) begin(stepper);
 }
 
 }  // namespace sinew

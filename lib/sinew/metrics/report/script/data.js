@@ -28,6 +28,7 @@ function unpackedPlayback(playback) {
     forces: places(playback.forces),
     bone: new Int16Array(bytesOf(playback.bone).buffer),
     material: new Int16Array(bytesOf(playback.material).buffer),
+    mark: new Int16Array(bytesOf(playback.mark).buffer),
     ids: new Uint32Array(bytesOf(playback.ids).buffer),
     corners: new Uint32Array(bytesOf(playback.corners).buffer),
     held: new Uint32Array(bytesOf(playback.held).buffer),

@@ -3,8 +3,9 @@
 "use strict";
 
 /** What particles are colored by that has names instead of a scale. */
-function categoriesOf({ bone, boneNames, boneColor, material, materialNames }) {
+function categoriesOf({ bone, boneNames, boneColor, material, materialNames, mark, markNames }) {
   return [
+    { name: "the step that failed", of: mark, names: markNames, color: markNames.map((_, i) => i) },
     { name: "bone it follows", of: bone, names: boneNames, color: boneColor },
     { name: "material", of: material, names: materialNames, color: materialNames.map((_, i) => i) },
   ].filter(({ names }) => names.length > 0);

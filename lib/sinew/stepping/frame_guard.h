@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Steps to one frame after another. A frame in which steps fail is taken anew, from the state at
+// its start, with half the step, down to a sixteenth; where that does not help, particles that are
+// too fast are slowed.
+//
+//     FrameGuard guard(simulation, plan);
+//     for (int frame = 1; frame <= frames; ++frame)
+//       for (guard.begin(frame); !guard.is_there();) guard.step();
+//
+// A particle that snaps out between two parts of the body that press on it moves over
+// max_radii_per_step, though nothing is unstable. Such steps are allowed where the balance of
+// energies holds until the end of the frame.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <sinew/body/step_plan.h>
+#include <sinew/core/simulation_state.h>
+
+namespace sinew {
+
+class Simulation;
+
+/// A frame that is taken anew.
+struct Retake {
+  int frame = 0;
+  int divisor = 1;             ///< of its steps, from now on
+  double residual = 0;         ///< of the balance of energies, over the energy that was turned over
+  bool moved_too_far = false;  ///< a particle, in a step; else the balance did not hold
+};
+
+/// The plan with what frames so far were divided by.
+StepPlan plan_with(const StepPlan& whole, const GuardState& state);
+
+class FrameGuard {
+ public:
+  /// `simulation` follows that plan in intervals, one for each frame.
+  FrameGuard(Simulation& simulation, StepPlan plan);
+
+  /// Steps lead to that frame from now on. Keeps the present state.
+  void begin(int frame);
+  bool is_there() const;
+  /// Makes a step; the frame may then be at its start again. Throws Error (unstable) as
+  /// Simulation::step() does where neither shorter steps nor limits of speed help, and at once
+  /// where the scene's step is over the limit of the body at rest.
+  void step();
+
+  /// With what frames so far were divided by.
+  const StepPlan& plan() const { return plan_; }
+  const GuardState& state() const { return state_; }
+  std::int64_t discarded() const { return discarded_; }  ///< steps of frames taken anew
+  /// Is told of each.
+  std::function<void(const Retake&)> on_retake = {};
+
+  SimulationState save() const;
+  /// Continues from there, within a frame; `frame`: the one that its steps lead to.
+  void restore(const SimulationState& state, int frame);
+
+ private:
+  /// Of the energies, J.
+  struct Balanced {
+    double residual = 0, turnover = 0;
+  };
+
+  void divide(int by);
+  void take_anew(const Retake& why);
+  void be_lenient(bool lenient);
+  void limit_speeds();
+  void check_balance();
+  Balanced balance();
+  double energy_of_offenders() const;
+
+  Simulation& simulation_;
+  StepPlan whole_, plan_;
+  int frame_ = 0;
+  GuardState state_;
+  std::shared_ptr<const SimulationState> begun_;
+  std::int64_t discarded_ = 0;
+  int limits_in_step_ = 0;
+};
+
+}  // namespace sinew
