@@ -47,6 +47,8 @@ Checkpoint sample(bool single = false) {
   state.groups = {1, -2, 0.5};
   state.grouping = {0, -1, 0, 0, 1};
   state.regrouping = {3, 0.25, {-1, 0.5}};
+  state.limited = {{0, 2, 0, 0, 1}, 7, 0.125, {1, -2, 3}};
+  state.guard = {{4, 2, 5, 8}, 8, true, 0.5, 0.75};
   return sample;
 }
 
@@ -149,8 +151,8 @@ TEST_F(CheckpointFile, KeepsWhereAnIncrementBegan) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 9;
-  expect_refused(resealed(other), {"version 9, not 8"});
+  other[12] = 10;
+  expect_refused(resealed(other), {"version 10, not 9"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});
@@ -165,8 +167,8 @@ TEST_F(CheckpointFile, OfAnOlderVersionIsRefusedWithTheSinewThatWroteIt) {
   Checkpoint older = sample();
   older.run.program = "0.4.2";
   std::string bytes = bytes_of(older);
-  bytes[12] = 7;
-  expect_refused(resealed(bytes), {"version 7, not 8", "sinew '0.4.2'", "--force"});
+  bytes[12] = 8;
+  expect_refused(resealed(bytes), {"version 8, not 9", "sinew '0.4.2'", "--force"});
 }
 
 TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {

@@ -142,4 +142,20 @@ std::string cause_and_cure(const FailedStep& failed, std::size_t particle) {
   return Diagnosis(failed, particle).text();
 }
 
+Error unstable(const FailedStep& failed, std::size_t particle, bool finite) {
+  const std::int32_t id = failed.particles.id[particle];
+  const auto bones = failed.body.binding.of(static_cast<std::size_t>(id));
+  const std::string where =
+      bones.empty() ? "" : " on bone '" + failed.body.skeleton.bones[bones.front().bone].name + "'";
+  const std::string what =
+      finite ? " moved over " + three_digits(max_radii_per_step) +
+                   (bones.empty() ? " r relative to its previous motion in one step"
+                                  : " r relative to its bone in one step")
+             : std::string(" reached a value that is not finite");
+  return Error(Exit::unstable, "step " + std::to_string(failed.steps) + " at " +
+                                   three_digits(failed.time) + " s: particle " +
+                                   std::to_string(id) + where + what + ": " +
+                                   cause_and_cure(failed, particle));
+}
+
 }  // namespace sinew

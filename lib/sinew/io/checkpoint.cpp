@@ -32,6 +32,40 @@ Error no_checkpoint(const std::string& what) {
 // Visit all values in the order of the file, for both the writer and the reader: archive(name,
 // value or list of values).
 
+template <class Relaxation, class Archive>
+void serialize_relaxation(Archive& archive, Relaxation& relaxation) {
+  archive("atrest", relaxation.at_rest);
+  archive("iterate", relaxation.iterations);
+  archive("spent", relaxation.spent);
+  archive("incrmnts", relaxation.increments);
+  archive("reached", relaxation.reached);
+  archive("incrmnt", relaxation.increment);
+  archive("shorter", relaxation.shortened);
+  archive("damping", relaxation.damping);
+  archive("pushed", relaxation.pushed);
+  archive("largest", relaxation.largest);
+  archive("applied", relaxation.applied);
+  archive("unbal", relaxation.unbalanced);
+  archive("best", relaxation.best);
+  archive("bestat", relaxation.best_at);
+  archive("newton", relaxation.newton);
+  archive("negative", relaxation.negative);
+  archive("unstable", relaxation.unstable);
+}
+
+template <class State, class Archive>
+void serialize_guard(Archive& archive, State& state) {
+  archive("divided", state.guard.divided);
+  archive("divisor", state.guard.divisor);
+  archive("lenient", state.guard.lenient);
+  archive("residual", state.guard.residual);
+  archive("turnover", state.guard.turnover);
+  archive("limited", state.limited.in_frame);
+  archive("limits", state.limited.times);
+  archive("limitlos", state.limited.energy);
+  archive("limitimp", state.limited.impulse);
+}
+
 template <class State, class Archive>
 void serialize_state(Archive& archive, State& state) {
   archive("steps", state.steps);
@@ -56,23 +90,7 @@ void serialize_state(Archive& archive, State& state) {
   archive("creep", state.creep);
   archive("clocks", state.branch_clocks);
   archive("stretch", state.branch_stretches);
-  archive("atrest", state.relaxation.at_rest);
-  archive("iterate", state.relaxation.iterations);
-  archive("spent", state.relaxation.spent);
-  archive("incrmnts", state.relaxation.increments);
-  archive("reached", state.relaxation.reached);
-  archive("incrmnt", state.relaxation.increment);
-  archive("shorter", state.relaxation.shortened);
-  archive("damping", state.relaxation.damping);
-  archive("pushed", state.relaxation.pushed);
-  archive("largest", state.relaxation.largest);
-  archive("applied", state.relaxation.applied);
-  archive("unbal", state.relaxation.unbalanced);
-  archive("best", state.relaxation.best);
-  archive("bestat", state.relaxation.best_at);
-  archive("newton", state.relaxation.newton);
-  archive("negative", state.relaxation.negative);
-  archive("unstable", state.relaxation.unstable);
+  serialize_relaxation(archive, state.relaxation);
   archive("slidpair", state.sliding_pairs);
   archive("sliding", state.sliding);
   archive("groups", state.groups);
@@ -81,15 +99,7 @@ void serialize_state(Archive& archive, State& state) {
   archive("merging", state.regrouping.lost);
   archive("still", state.regrouping.still_since);
   archive("pressed", state.pressed);
-  archive("divided", state.guard.divided);
-  archive("divisor", state.guard.divisor);
-  archive("lenient", state.guard.lenient);
-  archive("residual", state.guard.residual);
-  archive("turnover", state.guard.turnover);
-  archive("limited", state.limited.in_frame);
-  archive("limits", state.limited.times);
-  archive("limitlos", state.limited.energy);
-  archive("limitimp", state.limited.impulse);
+  serialize_guard(archive, state);
 }
 
 template <class State, class Archive>

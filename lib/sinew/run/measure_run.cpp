@@ -165,7 +165,7 @@ class ValueSeries {
   std::optional<Series> series_;
 };
 
-/// Of the limb that is turned farthest from its bone, degrees.
+/// Turn of the limb that is farthest from its bone, degrees.
 double largest_turn(std::span<const BoneMetrics> bones) {
   Statistics turns;
   for (const BoneMetrics& bone : bones)

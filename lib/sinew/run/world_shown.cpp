@@ -109,6 +109,8 @@ Box obstacle_space(const Box& body) {
   return Box(body.min() - more, body.max() + more);
 }
 
+namespace {
+
 /// The particles for which the run broke off, where it has left them.
 void mark_offenders(Playback& playback, const RunFiles& run) {
   if (status_of(run.folder) != "unstable" || !std::filesystem::exists(run.folder.blowup())) return;
@@ -120,6 +122,8 @@ void mark_offenders(Playback& playback, const RunFiles& run) {
   for (const std::uint32_t i : playback.particles)
     playback.mark.push_back(std::clamp((*offence)[i], 0, 2));
 }
+
+}  // namespace
 
 void show_world(Playback& playback, const RunFiles& run,
                 const std::function<std::size_t(std::size_t)>& frame_of) {

@@ -17,8 +17,8 @@ constexpr int max_divisor = 16, max_frame = 1 << 24;
 // What snaps out between two parts moves half a radius at half the limit of the step; what moves
 // farther may pass through its neighbors.
 constexpr double max_radii_of_snap = 1;
-// Of the energy turned over: 0.1 to 5 % are lost where bodies snap, a step over the limit doubles
-// the energy in a few steps.
+// Fraction of the energy turned over: snaps leave 0.4 to 10 %, a step over the limit doubles the
+// energy in a few steps.
 constexpr double max_residual = 0.2;
 // Below the limit, since damping has less to slow then.
 constexpr double limited_to = 0.8 * max_radii_per_step;
@@ -108,7 +108,7 @@ FrameGuard::Balanced FrameGuard::balance() {
   return {now.stored() - now.work() + now.dissipation, now.dissipation + std::abs(now.work())};
 }
 
-/// Of their motion relative to their bones, in the step that failed, J.
+/// Energy of their motion relative to their bones, in the step that failed, J.
 double FrameGuard::energy_of_offenders() const {
   double energy = 0;
   for (const Offender& one : simulation_.offenders())
@@ -120,8 +120,6 @@ void FrameGuard::check_balance() {
   const Balanced now = balance();
   const double residual =
       std::abs(now.residual - state_.residual) / std::max(1e-300, now.turnover - state_.turnover);
-  if (getenv("GUARD"))
-    fprintf(stderr, "frame %d divisor %d residual %g\n", frame_, state_.divisor, residual);
   if (residual > max_residual) take_anew({frame_, 2 * state_.divisor, residual, false});
 }
 

@@ -60,7 +60,7 @@ class FrameGuard {
   void restore(const SimulationState& state, int frame);
 
  private:
-  /// Of the energies, J.
+  /// Sums of energies, J.
   struct Balanced {
     double residual = 0, turnover = 0;
   };

@@ -18,6 +18,7 @@
 #include <sinew/stepping/detail/dynamic_grouping.h>
 #include <sinew/stepping/detail/list_stepper.h>
 #include <sinew/stepping/detail/load_increments.h>
+#include <sinew/stepping/detail/speed_limits.h>
 #include <sinew/stepping/equilibrium.h>
 #include <sinew/world/world.h>
 
@@ -213,7 +214,7 @@ Vec3 Simulation::acceleration(std::size_t i) const {
   return its_->forces.total(i) / mass(i) + its_->stepping.gravity;
 }
 
-/// By so many times `gain`, of a particle by place; m/s.
+/// Adds so many times `gain`, of a particle by place; m/s.
 void Simulation::add_to_velocities(double by, const std::function<Vec3(std::size_t i)>& gain) {
   SimulationState state = save();
   const double unit = std::holds_alternative<MovingInSingle>(state.moving)
@@ -249,35 +250,21 @@ void Simulation::go_on_by(StepPlan plan) { its_->plan = std::move(plan); }
 void Simulation::allow_moves(double radii) { its_->stepper->allow_moves(radii); }
 
 std::size_t Simulation::limit_offenders(double radii) {
-  const double before = energies().stored(), step = its_->stepping.step;
-  const double most = radii * its_->particles.radius / step;
-  const Particles now = particles();
-  LimitedSpeeds& limited = its_->limited;
-  Points gain(now.size(), Vec3::Zero());
-  std::size_t slowed = 0;
-  double work = 0;
-  for (const Offender& one : its_->offenders) {
-    const std::size_t i = one.particle;
-    const int bone = its_->body->binding.bone(static_cast<std::size_t>(now.id[i]));
-    if (!one.finite || bone == no_bone) continue;
-    const Vec3 carried = pose()[static_cast<std::size_t>(bone)].velocity_at(now.position(i));
-    const Vec3 relative = now.velocity(i) + step * acceleration(i) - carried;
-    if (relative.norm() <= most) continue;
-    gain[i] = (most / relative.norm() - 1) * relative;
-    limited.in_frame.resize(now.size());
-    ++limited.in_frame[i];
-    limited.impulse += mass(i) * gain[i];
-    work += mass(i) * gain[i].dot(carried);
-    ++slowed;
-  }
-  if (slowed == 0) return 0;
-  add_to_velocities(1, [&](std::size_t i) { return gain[i]; });
+  const double before = energies().stored();
+  const SpeedChange change = slowed(*its_->body, pose(), particles(), its_->forces, its_->stepping,
+                                    its_->offenders, radii);
+  if (change.particles.empty()) return 0;
+  add_to_velocities(1, [&](std::size_t i) { return change.gain[i]; });
   its_->evaluated = false;
-  const double lost = before + work - energies().stored();
-  limited.times += static_cast<std::int64_t>(slowed);
+  const double lost = before + change.work - energies().stored();
+  its_->ledger.add(change.work, lost);
+  LimitedSpeeds& limited = its_->limited;
+  limited.in_frame.resize(change.gain.size());
+  for (const std::size_t i : change.particles) ++limited.in_frame[i];
+  limited.times += static_cast<std::int64_t>(change.particles.size());
   limited.energy += lost;
-  its_->ledger.add(work, lost);
-  return slowed;
+  limited.impulse += change.impulse;
+  return change.particles.size();
 }
 
 const LimitedSpeeds& Simulation::limited() const { return its_->limited; }
@@ -425,22 +412,10 @@ const Offender& Simulation::worst_offender() const {
 
 void Simulation::fail() {
   const Offender& worst = worst_offender();
-  const std::int32_t id = its_->particles.id[worst.particle];
-  const auto bones = its_->body->binding.of(id);
   evaluate();
-  const std::string why = cause_and_cure(
-      {*its_->body, pose(), time(), particles(), its_->forces, its_->stepping}, worst.particle);
-  const std::string where =
-      bones.empty() ? "" : " on bone '" + its_->body->skeleton.bones[bones.front().bone].name + "'";
-  throw Error(
-      Exit::unstable,
-      "step " + std::to_string(its_->steps) + " at " + three_digits(time()) + " s: particle " +
-          std::to_string(id) + where +
-          (worst.finite ? " moved over " + three_digits(max_radii_per_step) +
-                              (bones.empty() ? " r relative to its previous motion in one step"
-                                             : " r relative to its bone in one step")
-                        : std::string(" reached a value that is not finite")) +
-          ": " + why);
+  throw unstable(
+      {*its_->body, pose(), time(), particles(), its_->forces, its_->stepping, its_->steps},
+      worst.particle, worst.finite);
 }
 
 const Particles& Simulation::particles() const {
