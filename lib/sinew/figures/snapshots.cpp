@@ -73,6 +73,12 @@ std::vector<std::size_t> traced_places(const RunFiles& run, const std::vector<in
   return places;
 }
 
+Vec3 mean_of(const Points& points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& point : points) sum += point;
+  return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+}
+
 double root_mean_square(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value * value;
@@ -97,6 +103,7 @@ void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool firs
 DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
     : run_(open_run({folder})), options_(std::move(options)) {
   for (const ViewPreset& preset : options_.presets) views_.push_back(applied(preset));
+  if (options_.by_front) face_front();
   select_bones();
   for (const std::size_t held : held_in_frames(run_)) {
     marks_.resize(run_.body.particles.size(), Mark::none);
@@ -159,6 +166,11 @@ bool DrawnRun::is_selected(std::size_t particle) const {
   return bone >= 0 && selected_[static_cast<std::size_t>(bone)];
 }
 
+void DrawnRun::Extent::extend(const Mat3& view, const Snapshot& snapshot) {
+  frame.extend(seen(view, snapshot));
+  around.extend(snapshot);
+}
+
 DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,
                                       const DrawnView& drawn) const {
   if (drawn.pulls) {
@@ -199,17 +211,29 @@ void DrawnRun::check_plane(const Box& body) const {
       "give a point on it between " + words(body.min()) + " and " + words(body.max()) + " m");
 }
 
+/// Turns the view by as much as the figure is turned from -y in the first frame.
+void DrawnRun::face_front() {
+  const auto front = front_in(run_);
+  if (!front) return;
+  const double angle = std::atan2(front->x(), -front->y());
+  options_.view = options_.view * Eigen::AngleAxisd(-angle, Vec3::UnitZ()).toRotationMatrix();
+}
+
+Vec3 DrawnRun::travel(std::size_t index) const {
+  return overview_.travel.empty() ? Vec3::Zero().eval() : overview_.travel[index];
+}
+
 void DrawnRun::read_overview() {
   const std::vector<std::size_t> traced = traced_places(run_, options_.traced);
+  const Points rest = positions_of(run_.body.particles);
+  const Vec3 start = mean_of(rest);
   overview_.paths.resize(traced.size());
-  overview_.around.axis = bounds(positions_of(run_.body.particles)).center();
+  overview_.around.axis = bounds(rest).center();
+  Extent still{{}, overview_.around}, followed = still;
   FramesInOrder frames(run_, options_.ahead);
-  Box body;
+  Box body, body_followed;
   JointTurns turns(run_);
-  const auto extend = [this](const Snapshot& snapshot) {
-    overview_.frame.extend(seen(options_.view, snapshot));
-    overview_.around.extend(snapshot);
-  };
+  double farthest = 0;
   for (std::size_t i = 0; i < run_.frames(); ++i) {
     RunFrame frame = frames.next();
     overview_.angle.push_back(largest_turn(run_, frame));
@@ -218,23 +242,45 @@ void DrawnRun::read_overview() {
     for (DrawnView& drawn : views_) widen(drawn.range, range_in(i, frame, drawn), i == 0);
     for (std::size_t k = 0; k < traced.size(); ++k)
       overview_.paths[k].push_back(frame.positions[traced[k]]);
-    body.extend(bounds(frame.positions)).extend(bounds(frame.surface_points));
-    extend(snapshot_of(run_, std::move(frame), 0));
+    const Box now = bounds(frame.positions).merged(bounds(frame.surface_points));
+    const Vec3 moved = mean_of(frame.positions) - start;
+    overview_.travel.emplace_back(moved.x(), moved.y(), 0);
+    farthest = std::max(farthest, overview_.travel.back().norm());
+    body.extend(now), body_followed.extend(now.translated(-overview_.travel.back()));
+    Snapshot snapshot = snapshot_of(run_, std::move(frame), 0);
+    still.extend(options_.view, snapshot);
+    sinew::shift(snapshot, -overview_.travel.back());
+    followed.extend(options_.view, snapshot);
   }
+  // Bodies that go farther than they are large are followed, but where paths are drawn.
+  const bool follows =
+      options_.follows && traced.empty() && farthest > bounds(rest).diagonal().norm();
+  if (!follows) overview_.travel.clear();
   check_plane(body);
   overview_.plane =
       options_.plane ? DrawnPlane(*options_.plane) : DrawnPlane(run_, turns, options_.view);
-  overview_.obstacle_space = obstacle_space(body);
+  overview_.obstacle_space = obstacle_space(follows ? body_followed : body);
+  add_surroundings(follows ? followed : still);
+}
+
+/// Sets the extents of the overview: those of the body, and of what is around it.
+void DrawnRun::add_surroundings(Extent extent) {
+  const auto add = [&](Snapshot& snapshot, std::size_t index) {
+    sinew::shift(snapshot, -travel(index));
+    extent.extend(options_.view, snapshot);
+  };
   for (std::size_t i = 0; i < run_.obstacle_rows.size(); ++i) {
     Snapshot obstacles;
     add_obstacles(obstacles, i);
-    extend(obstacles);
+    add(obstacles, i);
   }
   for (std::size_t i = 0; i < run_.support_rows.size(); ++i) {
     Snapshot machine;
     machine.forces = arrows_of(forces_->at(i));
-    extend(machine);
+    add(machine, i);
   }
+  overview_.frame = extent.frame;
+  overview_.around = extent.around;
 }
 
 std::string DrawnRun::name() const {
@@ -422,6 +468,10 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   if (view == View::halves) halve(snapshot);
   if (view == View::cut) open_skin(snapshot, plane);
   if (view == View::arrows) add_arrows(snapshot, index, drawn, plane);
+  if (const Vec3 moved = travel(index); !moved.isZero(0)) {
+    sinew::shift(snapshot, -moved);
+    snapshot.caption += ",  " + three_digits(moved.norm()) + " m on";
+  }
   return snapshot;
 }
 

@@ -49,9 +49,11 @@ struct DrawnView {
 struct RunOverview {
   std::vector<double> angle;  ///< per frame: largest turn of a bone since rest, rad
   std::vector<double> shift;  ///< per frame: root mean square of the particles' displacements, m
-  Box frame;                  ///< around the body at all times, in the camera's directions
-  Cylinder around;            ///< the upright axis through its middle at rest, at all times
-  Box obstacle_space = {};    ///< around it, m
+  /// Per frame: how far the camera has followed the body over the ground, m; empty: it stays.
+  std::vector<Vec3> travel;
+  Box frame;                ///< around the body at all times, in the camera's directions
+  Cylinder around;          ///< the upright axis through its middle at rest, at all times
+  Box obstacle_space = {};  ///< around it, m
   std::optional<DrawnPlane> plane = {};  ///< by which views cut the body open
   std::vector<Points> paths;             ///< of the traced particles, one point per frame, m
 };
@@ -64,7 +66,9 @@ struct DrawnRunOptions {
                                    ///< gray, without arrows; empty: all
   std::vector<int> traced;         ///< ids of the particles whose paths are drawn
   std::optional<CutPlane> plane = {};  ///< none: through the joint that turns most
-  bool ahead = true;                   ///< reads frames in another thread
+  bool follows = true;                 ///< the camera, a body that leaves the place where it began
+  bool by_front = false;  ///< `view` is of a figure that looks along -y: turned to where it looks
+  bool ahead = true;      ///< reads frames in another thread
 };
 
 class DrawnRun {
@@ -78,6 +82,7 @@ class DrawnRun {
   const RunOverview& overview() const { return overview_; }
   const std::vector<DrawnView>& view_presets() const { return views_; }
   std::string name() const;  ///< of its folder
+  const Mat3& view() const { return options_.view; }
 
   /// The frame nearest in time.
   std::size_t frame_at(double time) const;
@@ -90,9 +95,19 @@ class DrawnRun {
   DrawnView cut_open(const DrawnView& body) const;
 
  private:
+  /// What the camera has to show.
+  struct Extent {
+    Box frame;
+    Cylinder around;
+    void extend(const Mat3& view, const Snapshot& snapshot);
+  };
+
   DrawnView applied(const ViewPreset& preset) const;
   void select_bones();
+  void face_front();
+  Vec3 travel(std::size_t index) const;
   void read_overview();
+  void add_surroundings(Extent extent);
   void check_plane(const Box& body) const;
   DrawnValues::Range range_in(std::size_t index, const RunFrame& frame,
                               const DrawnView& drawn) const;

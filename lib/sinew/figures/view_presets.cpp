@@ -95,6 +95,11 @@ Backdrop backdrop_named(const std::string& text) {
   return {paper_of(entry_named(named_colors(), text, "color").color), false};
 }
 
+bool is_side(const std::string& text) {
+  return text != "top" && std::any_of(std::begin(views), std::end(views),
+                                      [&](const auto& view) { return view.name == text; });
+}
+
 Mat3 view_named(const std::string& text) {
   Vec3 towards = Vec3::Zero();
   char rest = 0;

@@ -48,5 +48,7 @@ const Look& look_named(const std::string& name);
 /// "three_quarter", "front", "back", "left", "right", "top", or the direction towards the viewer as
 /// "1,-2,0.5". Throws bad input for anything else.
 Mat3 view_named(const std::string& text);
+/// Whether it is a name of a side, which goes by where a figure looks.
+bool is_side(const std::string& text);
 
 }  // namespace sinew

@@ -6,6 +6,22 @@
 
 namespace sinew {
 
+void shift(Snapshot& snapshot, const Vec3& by) {
+  const auto move = [&](Points& points) {
+    for (Vec3& point : points) point += by;
+  };
+  for (Points* points : {&snapshot.particles, &snapshot.surface.points, &snapshot.cut.points,
+                         &snapshot.references, &snapshot.obstacles.points})
+    move(*points);
+  snapshot.cut.point += by;
+  for (SnapshotBone& bone : snapshot.bones) bone.head += by, bone.tail += by;
+  for (SnapshotArrow& arrow : snapshot.arrows) arrow.from += by;
+  for (SnapshotForce& force : snapshot.forces) force.from += by;
+  for (SnapshotLine& line : snapshot.lines) line.from += by, line.to += by;
+  for (SnapshotCurve& curve : snapshot.curves) move(curve.points);
+  for (SnapshotTrace& trace : snapshot.traces) move(trace.path);
+}
+
 Snapshot marked(const Snapshot& snapshot, Mark mark) {
   Snapshot some;
   some.radius = snapshot.radius;

@@ -90,6 +90,9 @@ struct Snapshot {
   Box obstacle_space;  ///< they are drawn as far as they lie in it, in the scene's axes, m
 };
 
+/// Moves all of it, m.
+void shift(Snapshot& snapshot, const Vec3& by);
+
 /// The particles with this mark, without their values.
 Snapshot marked(const Snapshot& snapshot, Mark mark);
 

@@ -233,6 +233,7 @@ Measured measure_run(const RunFiles& run, const MeasureOptions& how) {
     measured.checks.push_back(check_limit(limit, measured.frames, measured.summary));
   if (!how.playback) return measured;
   add_worst_frames(measured, rest, run);
+  measured.playback.front = front_in(run).value_or(Vec3::Zero());
   show_world(measured.playback, run, [](std::size_t frame) { return frame; });
   return measured;
 }

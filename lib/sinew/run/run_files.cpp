@@ -13,6 +13,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/material/laws.h>
+#include <sinew/rig/front.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/prepare.h>
@@ -258,6 +259,18 @@ RunFiles open_run(const RunFolder& folder) {
   run.bond_rows = rows_if_there(folder, "bonds");
   read_rest_surface(run);
   return run;
+}
+
+std::optional<Vec3> front_in(const RunFiles& run) {
+  const RunFrame frame = read_frame(run, 0);
+  std::vector<std::string> names;
+  Points heads, tails;
+  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
+    names.push_back(run.skeleton.bones[b].name);
+    heads.push_back(frame.bones[b].origin);
+    tails.push_back(heads.back() + frame.bone_lengths[b] * frame.bones[b].rotation.col(0));
+  }
+  return names.empty() ? std::nullopt : front_of(names, heads, tails);
 }
 
 RunFrame read_frame(const RunFiles& run, std::size_t index) {

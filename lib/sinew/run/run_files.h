@@ -68,6 +68,9 @@ struct RunFrame {
   Points world_force;                      ///< force_world, N; empty: not written
 };
 
+/// Where the figure looks in the first frame, by its bones; see front_of().
+std::optional<Vec3> front_in(const RunFiles& run);
+
 /// Throws bad input, naming the file, where it is damaged or of another body.
 RunFrame read_frame(const RunFiles& run, std::size_t frame);
 

@@ -56,6 +56,7 @@ struct Playback {
   std::vector<std::string> material_names = {};
   std::vector<int> mark = {};  ///< of each of them, a number of a name; empty: nothing is marked
   std::vector<std::string> mark_names = {};
+  Vec3 front = Vec3::Zero();  ///< where a figure looks, horizontal, of length 1; zero: not known
   std::vector<std::uint32_t> held = {};   ///< indices of those that are held, into `particles`
   std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points

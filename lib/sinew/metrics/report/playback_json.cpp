@@ -167,6 +167,7 @@ std::string playback_json(const Playback& playback) {
                      {"boneColor", playback.bone_color},
                      {"material", numbers(playback.material)},
                      {"materialNames", playback.material_names},
+                     {"front", {playback.front.x(), playback.front.y()}},
                      {"mark", numbers(playback.mark)},
                      {"markNames", playback.mark_names},
                      {"surface", places_of(playback, cube, &PlaybackFrame::surface)},

@@ -97,12 +97,48 @@ function makeForce(isLoad) {
   return arrow;
 }
 
-/** Places the camera to see the whole playback, along the axis of least motion. */
+/** The middle of the body on the ground in each snapshot, if it goes farther than it is large; else none. */
+function travelOf(playback) {
+  const boxes = playback.snapshots.map((_, i) =>
+    new THREE.Box3().setFromArray(snapshotOf(playback.particles, playback.ids.length, i)));
+  const middles = boxes.map((box) => box.getCenter(new THREE.Vector3()).setZ(0));
+  const size = boxes[0].getSize(new THREE.Vector3()).length();
+  return middles.some((middle) => middle.distanceTo(middles[0]) > size) ? middles : [];
+}
+
+/** All places of the particles relative to where the camera has followed them. */
+function followedBox(playback, travel) {
+  if (travel.length === 0) return new THREE.Box3().setFromArray(playback.particles);
+  const all = new THREE.Box3();
+  travel.forEach((middle, i) => all.union(
+    new THREE.Box3().setFromArray(snapshotOf(playback.particles, playback.ids.length, i))
+      .translate(new THREE.Vector3().subVectors(travel[0], middle))));
+  return all;
+}
+
+/** Moves the camera with the body. */
+function follow(view, snapshot) {
+  if (view.travel.length === 0) return;
+  const step = new THREE.Vector3().subVectors(view.travel[snapshot], view.travel[view.followed]);
+  view.controls.target.add(step);
+  view.camera.position.add(step);
+  view.followed = snapshot;
+}
+
+/** Where the viewer is: before a figure, slightly to its left, or along the axis of least motion. */
+function viewerSide([x, y], size) {
+  if (Math.hypot(x, y) > 0.5) return new THREE.Vector3(x - 0.35 * y, y + 0.35 * x, 0.25);
+  return size.y <= size.x ? new THREE.Vector3(0.35, -1, 0.25) : new THREE.Vector3(1, -0.35, 0.25);
+}
+
+/** Places the camera to see the whole playback. */
 function aim(view) {
   const { playback, camera, controls } = view;
-  const box = new THREE.Box3().setFromArray(playback.particles);
+  view.travel = travelOf(playback);
+  view.followed = 0;
+  const box = followedBox(playback, view.travel);
   const size = box.getSize(new THREE.Vector3());
-  const side = size.y <= size.x ? new THREE.Vector3(0.35, -1, 0.25) : new THREE.Vector3(1, -0.35, 0.25);
+  const side = viewerSide(playback.front, size);
   box.getCenter(controls.target);
   camera.up.set(0, 0, 1);
   const reach = size.length() / 2 + Math.max(...playback.balls.map(([, radius]) => radius));
@@ -191,6 +227,7 @@ function tint(view, snapshot, { field, category }) {
 }
 
 function showSnapshot(view, { snapshot, cut, ...shown }) {
+  follow(view, snapshot);
   placeParticles(view, snapshot, cut);
   placeSkin(view, snapshot);
   placeObstacles(view, snapshot);
