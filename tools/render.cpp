@@ -260,6 +260,10 @@ bool has_movie(const Options& options, std::size_t view) {
   return !options.no_movie && (view == 0 || !options.views.empty());
 }
 
+std::filesystem::path target_of(const Options& options, const RunFiles& run) {
+  return options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
+}
+
 Exit render(const Options& options, const Common& common, const std::vector<std::string>& words) {
   FigureSetOptions figure_set = figure_set_options(options);
   DrawnRunOptions what{
@@ -267,18 +271,17 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
   const std::vector<std::string> views = views_of(options);
   for (const std::string& view : views) what.presets.push_back(view_preset_named(view));
   what.ahead = common.threads != 1;
-  what.follows = what.by_front = options.other_folder.empty();
-  what.by_front = what.by_front && is_side(options.camera);
+  what.follows = options.other_folder.empty();
+  what.by_front = what.follows && is_side(options.camera);
   ensure_display();
   Stopwatch watch;
   std::deque<DrawnRun> runs;
   std::vector<const DrawnRun*> shown;
   for (const std::string& folder : {options.folder, options.other_folder})
     if (!folder.empty()) shown.push_back(&runs.emplace_back(folder, what));
-  figure_set.view = runs.front().view();
   const RunFiles& run = runs.front().files();
-  figure_set.folder =
-      options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
+  figure_set.view = runs.front().view();
+  figure_set.folder = target_of(options, run);
   if (!options.part.empty()) {
     for (std::size_t preset = 0; preset < views.size(); ++preset) {
       FigureSet pages(shown, preset, figure_set);

@@ -124,7 +124,8 @@ Dataset SyntheticRun::particles(Moment moment) const {
     neighbors[i] = static_cast<std::int32_t>(w % 13);
   }
   const Energies energies{moment.time, 2, 3, 4, 5, 6};
-  const std::vector<std::int32_t> material(n, 0), broken(n, 1), group(n, -1), level(n, 0);
+  const std::vector<std::int32_t> material(n, 0), broken(n, 1), group(n, -1), level(n, 0),
+      limited(n, 0);
   const Binding binding = one_bone_each(bone);
   return evaluated(particles_dataset({now,
                                       rest,
@@ -139,7 +140,9 @@ Dataset SyntheticRun::particles(Moment moment) const {
                                       broken,
                                       {},
                                       group,
-                                      level},
+                                      level,
+                                      {},
+                                      limited},
                                      positions_by_id(now), moment));
 }
 

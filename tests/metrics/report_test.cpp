@@ -305,7 +305,12 @@ TEST(Verdict, CallsABodyFrozenThatItsBonesDoNotMove) {
   EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::poor);
   frames[1].work_of_world = 1e-9;  // a machine that strains it by little
   EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::good);
-  frames[1].work_of_world = 0;
+  frames[1].work_of_world = not_measured;  // of a static run, whose loads strain it by little
+  EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::good);
+  frames[1].work_of_world = 0, frames[1].gravity_energy = -1e-6;  // it sags a little
+  EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::good);
+  frames[1].gravity_energy = 0;
+  EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::poor);
   frames[0].displacement_max = 1.1 * r;
   EXPECT_EQ(verdict(frames, summary, r, 1000)[4].level, Level::good);
   for (FrameMetrics& frame : frames) frame.displacement_max = 0, frame.bone_angle = not_measured;

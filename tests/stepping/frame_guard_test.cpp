@@ -131,6 +131,20 @@ TEST(FrameGuard, TakesAFrameAnewWithHalfTheStepUntilItSucceeds) {
   }
 }
 
+TEST(FrameGuard, TakesAFrameAnewWhereEnergiesDoNotBalance) {
+  Shot shot;
+  Simulation simulation = shot.simulation(0.9);  // collides within a step or two
+  simulation.follow(plan_of(shot.step));
+  FrameGuard guard(simulation, plan_of(shot.step));
+  std::vector<Retake> retakes;
+  guard.on_retake = [&](const Retake& why) { retakes.push_back(why); };
+  for (guard.begin(1); !guard.is_there();) guard.step();
+  ASSERT_EQ(retakes.size(), 1u);
+  EXPECT_FALSE(retakes[0].moved_too_far);
+  EXPECT_GT(retakes[0].residual, 0.2);
+  EXPECT_EQ(retakes[0].divisor, 2);
+}
+
 TEST(FrameGuard, LimitsWhatNoShorterStepHeals) {
   Shot shot;
   constexpr double radii = 40, allowed = 0.2 * 16;  // in a whole step

@@ -58,11 +58,10 @@ int StepPlan::intervals_begun(std::int64_t n) const {
                           (n - first_.back() + per_interval_ - 1) / per_interval_);
 }
 
-StepPlan StepPlan::divided(int index, int by) const {
+StepPlan StepPlan::divided(const std::vector<int>& by) const {
   std::vector<int> parts = parts_;
-  const auto at = static_cast<std::size_t>(index);
-  if (parts.size() <= at) parts.resize(at + 1, 1);
-  parts[at] *= by;
+  parts.resize(std::max(parts.size(), by.size()), 1);
+  for (std::size_t index = 0; index < by.size(); ++index) parts[index] *= by[index];
   return {step_, per_interval_, std::move(parts), last_};
 }
 

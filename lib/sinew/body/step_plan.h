@@ -54,9 +54,9 @@ class StepPlan {
   /// Intervals that have begun before step `n`.
   int intervals_begun(std::int64_t n) const;
 
-  /// The same with the steps of one interval divided into so many times as many. Only of a plan in
-  /// intervals.
-  StepPlan divided(int index, int by) const;
+  /// The same with the steps of the first intervals divided into so many times as many. Only of a
+  /// plan in intervals.
+  StepPlan divided(const std::vector<int>& by) const;
 
   /// Into how many parts the steps of an interval are divided.
   int parts(int index) const;

@@ -6,7 +6,7 @@
 //     const std::optional<Checkpoint> last = checkpoints.newest(particles, complaint);
 //
 // DIR/a.bin and DIR/b.bin are written in turn, each to a temporary file that is synced and renamed,
-// so that a complete checkpoint exists at any time. Format, version 4, in the machine's byte order
+// so that a complete checkpoint exists at any time. Format, in the machine's byte order
 // (which a mark identifies):
 //   "SINEWCKP", mark u32, version u32, length of the file u64,
 //   sections: name (8 bytes), bytes of an element u64, elements u64, the elements,

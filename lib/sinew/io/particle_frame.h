@@ -33,11 +33,11 @@ struct ParticleFrame {
   std::span<const Vec3> force_world = {};           ///< N; empty without a world
   std::span<const std::int32_t> material = {};      ///< by id; empty where there is only one
   std::span<const std::int32_t> broken_bonds = {};  ///< of each; empty where there are no bonds
-  std::span<const std::int32_t> limited = {};       ///< times of each; empty where it was none
   /// What is written as their ids, for a part of a body, whose own begin with 0; empty: these.
   std::span<const std::int32_t> ids = {};
   std::span<const std::int32_t> group = {}, level = {};  ///< by id; empty where there are none
   std::span<const Vec3> force_group = {};                ///< N; empty without groups
+  std::span<const std::int32_t> limited = {};            ///< times of each; empty: never
 };
 
 /// What a frame contains.

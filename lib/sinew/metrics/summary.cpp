@@ -206,8 +206,8 @@ VerdictItem inverted_item(double particles_inverted, std::size_t particles) {
 
 bool is_frozen(std::span<const FrameMetrics> frames, double radius) {
   return std::none_of(frames.begin(), frames.end(), [&](const FrameMetrics& frame) {
-    const bool driven = std::isfinite(frame.work_of_world) && frame.work_of_world != 0;
-    return driven || std::isnan(frame.bone_angle) || !(frame.displacement_max < radius);
+    const bool by_bones_alone = frame.work_of_world == 0 && !(std::abs(frame.gravity_energy) > 0);
+    return !by_bones_alone || std::isnan(frame.bone_angle) || !(frame.displacement_max < radius);
   });
 }
 

@@ -82,7 +82,7 @@ struct VerdictItem {
 std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const Summary& summary,
                                    double radius, std::size_t particles);
 
-/// Whether there are bones, nothing else that acts, and no particle has moved by a radius.
+/// Whether there are bones, nothing else acts in time, and no particle has moved by a radius.
 bool is_frozen(std::span<const FrameMetrics> frames, double radius);
 
 /// Why a run of so many particles is not to be trusted, in one line: over a hundredth of them

@@ -187,11 +187,11 @@ Dataset FrameData::frame_of(Points positions, const ParticleSelection& selection
                             forces.world,
                             body_.material_number,
                             now_.broken_bonds,
-                            now_.limited,
                             {},
                             group_,
                             level_,
-                            forces.group},
+                            forces.group,
+                            now_.limited},
                            std::move(positions), now_.moment, selection);
 }
 

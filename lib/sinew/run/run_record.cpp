@@ -85,14 +85,16 @@ std::string status_of(const RunFolder& folder) {
 }
 
 std::string scene_name(const RunFolder& folder) {
-  const auto record = read_record(folder);
-  const auto words = record.find("command");
-  if (words != record.end() && words->is_array())
-    for (const auto& word : *words) {
-      if (!word.is_string()) continue;
-      const std::filesystem::path path = word.get<std::string>();
-      if (path.extension() == ".yaml" || path.extension() == ".yml") return path.stem();
-    }
+  constexpr std::string_view usual = "scene";  // as it is named in the folder of a run
+  Json words;
+  if (std::filesystem::exists(folder.record()))
+    words = read_record(folder).value("command", Json::array());
+  for (const auto& word : words) {
+    if (!word.is_string()) continue;
+    const std::filesystem::path path = word.get<std::string>();
+    const bool is_scene = path.extension() == ".yaml" || path.extension() == ".yml";
+    if (is_scene && path.stem() != usual) return path.stem();
+  }
   return std::filesystem::absolute(folder.path / ".").lexically_normal().parent_path().filename();
 }
 

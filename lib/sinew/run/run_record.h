@@ -28,7 +28,7 @@ void record_stage(const RunFolder& folder, const std::string& stage, double seco
 std::string status_of(const RunFolder& folder);
 
 /// The name of the scene's file without its ending, from the command in run.json; the folder's
-/// where that has none.
+/// where that has none, or only "scene".
 std::string scene_name(const RunFolder& folder);
 
 /// For a run whose first frame is still to come, or never came: says so, and what to do.

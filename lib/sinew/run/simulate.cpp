@@ -306,7 +306,8 @@ class Run {
         divisor = std::max(divisor, guard.divided[k]);
       what = std::to_string(guard.divided.size() / 2) + " of " +
              std::to_string(schedule_.frames.count) + " frames had shorter steps, down to 1/" +
-             std::to_string(divisor) + ": particles moved too far in one";
+             std::to_string(divisor) +
+             ", where particles moved too far or energies did not balance";
     }
     if (limited.times > 0)
       what += "; speeds were limited " + std::to_string(limited.times) + " times, which took " +

@@ -13,12 +13,11 @@
 namespace sinew {
 namespace {
 
-constexpr int max_divisor = 16, max_frame = 1 << 24;
+constexpr int max_divisor = 16, max_frame = 1 << 20;
 // What snaps out between two parts moves half a radius at half the limit of the step; what moves
 // farther may pass through its neighbors.
 constexpr double max_radii_of_snap = 1;
-// Fraction of the energy turned over: snaps leave 0.4 to 10 %, a step over the limit doubles the
-// energy in a few steps.
+// Fraction of the energy turned over: snaps of squeezed particles leave 0.4 to 8 %.
 constexpr double max_residual = 0.2;
 // Below the limit, since damping has less to slow then.
 constexpr double limited_to = 0.8 * max_radii_per_step;
@@ -28,14 +27,16 @@ constexpr double max_limited = 0.1;  // of the particles, in a frame
 }  // namespace
 
 StepPlan plan_with(const StepPlan& whole, const GuardState& state) {
-  StepPlan plan = whole;
+  std::vector<int> divisors;
   for (std::size_t k = 0; k + 1 < state.divided.size(); k += 2) {
     const int frame = state.divided[k], by = state.divided[k + 1];
-    if (frame < 1 || frame > max_frame || by < 1 || by > max_divisor)
+    if (frame <= static_cast<int>(divisors.size()) || frame > max_frame || by < 1 ||
+        by > max_divisor)
       throw not_a_state("frame " + std::to_string(frame) + " has steps of 1/" + std::to_string(by));
-    plan = plan.divided(frame - 1, by);
+    divisors.resize(static_cast<std::size_t>(frame), 1);
+    divisors.back() = by;
   }
-  return plan;
+  return divisors.empty() ? whole : whole.divided(divisors);
 }
 
 FrameGuard::FrameGuard(Simulation& simulation, StepPlan plan)
@@ -95,7 +96,6 @@ void FrameGuard::divide(int by) {
 }
 
 void FrameGuard::take_anew(const Retake& why) {
-  discarded_ += simulation_.steps() - begun_->steps;
   simulation_.restore(*begun_);
   state_ = begun_->guard;
   be_lenient(false);

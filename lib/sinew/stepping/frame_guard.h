@@ -51,7 +51,6 @@ class FrameGuard {
   /// With what frames so far were divided by.
   const StepPlan& plan() const { return plan_; }
   const GuardState& state() const { return state_; }
-  std::int64_t discarded() const { return discarded_; }  ///< steps of frames taken anew
   /// Is told of each.
   std::function<void(const Retake&)> on_retake = {};
 
@@ -78,7 +77,6 @@ class FrameGuard {
   int frame_ = 0;
   GuardState state_;
   std::shared_ptr<const SimulationState> begun_;
-  std::int64_t discarded_ = 0;
   int limits_in_step_ = 0;
 };
 

@@ -241,10 +241,9 @@ std::string end_band(const RunEnd& end) {
   if (end.kind == RunEnd::Kind::finished) return "";
   const bool broke = end.kind == RunEnd::Kind::broke;
   const std::string times = readable(end.time) + " s of " + readable(end.of) + " s";
-  const std::string what = broke ? "This run broke off after " + times +
-                                       ": what follows is of "
-                                       "the frames before."
-                                 : "This run has come to " + times + ".";
+  const std::string what =
+      broke ? "This run broke off after " + times + ": what follows is of the frames before."
+            : "This run has come to " + times + '.';
   return element("section", element("b", what) + element("p", escaped(end.why)),
                  std::string("role=\"alert\" class=\"band ") + (broke ? "broke" : "waits") + '"');
 }

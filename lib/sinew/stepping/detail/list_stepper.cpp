@@ -474,8 +474,8 @@ void ListStepper<Real>::find_flow(const kernel::Step<Real>& now) {
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
   Failure failure;
-  const double most = max_radii_ * body_->material.pair.r *
-                      (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
+  const double most =
+      max_radii_ * body_->material.pair.r * (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < layout_.caller().size(); ++k) {
     if (groups_.is_idle(k)) continue;
