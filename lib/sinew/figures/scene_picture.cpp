@@ -23,22 +23,24 @@ struct DrawnScene {
   Triangles obstacles;
 };
 
-bool is_held(const DrawnScene& scene, std::size_t particle) {
-  if (!scene.world) return false;
-  const auto& pins = scene.world->pins;
-  return std::any_of(pins.begin(), pins.end(),
-                     [&](const Pinned& pin) { return pin.particle == particle; });
+std::vector<bool> held_particles(const DrawnScene& scene) {
+  std::vector<bool> held(scene.rest.size());
+  if (scene.world)
+    for (const Pinned& pin : scene.world->pins) held[pin.particle] = true;
+  return held;
 }
 
 /// The particle farthest from all bones, which do not hide it.
 std::size_t visible_particle(const DrawnScene& scene) {
+  const std::vector<bool> held = held_particles(scene);
   std::size_t best = 0;
   double farthest = -1;
   for (std::size_t i = 0; i < scene.rest.size(); ++i) {
+    if (held[i]) continue;
     double nearest = std::numeric_limits<double>::infinity();
     for (const Bone& bone : scene.skeleton.bones)
       nearest = std::min(nearest, distance_to(bone, scene.rest[i]));
-    if (nearest > farthest && !is_held(scene, i)) farthest = nearest, best = i;
+    if (nearest > farthest) farthest = nearest, best = i;
   }
   return best;
 }

@@ -19,8 +19,8 @@ namespace sinew {
 namespace {
 
 constexpr double rest_turn = 1, left_rest = 30;  // degrees that a bone turns from rest
-constexpr double max_frame = 0.1 + 1e-6;       // s from one frame to the next
-constexpr double far_from_rest = 90;           // the same
+constexpr double max_frame = 0.1 + 1e-6;         // s from one frame to the next
+constexpr double far_from_rest = 90;             // the same
 constexpr int moments_of_way = 8;
 constexpr double residual = 1e-3;
 constexpr std::int64_t max_iterations = 3000;

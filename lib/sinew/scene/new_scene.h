@@ -80,6 +80,7 @@ struct NewChoices {
   double thickness = 0;                 ///< of its limbs, m
   std::vector<std::string> clips = {};  ///< others than the one that plays
   std::string clip_note = {};           ///< about that one
+  bool begins_posed = false;            ///< it begins far from rest
   bool hollow = false;                  ///< a shell, whose bones lie outside of it
   std::string changed = {};             ///< what the written mesh is; "": the given one
 };

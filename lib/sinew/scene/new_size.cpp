@@ -133,6 +133,8 @@ Prepared tried(const Surface& surface, const NewChoices& choices) {
   settings.body.mesh = "body";
   settings.body.unit = LengthUnit::m, settings.body.up = Axis::z, settings.body.forward.reset();
   settings.meshes["body"] = std::move(soup);
+  if (choices.begins_posed) settings.motion.preroll = 0;
+  settings.motion.begin = Begin::rest;
   return prepare({std::move(settings)});
 }
 

@@ -69,6 +69,21 @@ Motion clip_motion(const Rig& rig, const Skeleton& skeleton, const Settings& set
   return motion;
 }
 
+/// The clip that gives the rest pose: the one that plays, or the first of the skeleton's file where
+/// another file's plays.
+const Clip& clip_at_rest(const Rig& rig, const Settings& settings) {
+  if (settings.motion.file.empty() || rig.clips.empty()) return clip_of(rig, settings);
+  return rig.clips.front();
+}
+
+/// Another file's clip for a skeleton that rests in a pose of its own clip.
+Rig moved_from_rest(const Settings& settings, const Rig& skeleton, const Rig& motion) {
+  Clip clip = clip_of(motion, settings);
+  clip.motion = renamed(std::move(clip.motion), motion.skeleton, skeleton.skeleton);
+  const Motion& own = clip_at_rest(skeleton, settings).motion;
+  return with_rest_at({skeleton.skeleton, {std::move(clip)}}, own, *settings.skeleton.rest_at);
+}
+
 }  // namespace
 
 Rig at_rest(const Settings& settings, const Rig& rig) {
@@ -78,7 +93,7 @@ Rig at_rest(const Settings& settings, const Rig& rig) {
                     "the weights of the file are those of its own rest pose",
                     "remove it, or set binding.method to inside");
   return with_context(settings, "skeleton.rest_at", [&] {
-    return with_rest_at(rig, clip_of(rig, settings).motion, *settings.skeleton.rest_at);
+    return with_rest_at(rig, clip_at_rest(rig, settings).motion, *settings.skeleton.rest_at);
   });
 }
 
@@ -127,7 +142,10 @@ SceneRig rig_of(const Settings& settings, const SceneFiles& files) {
     return with_context(settings, key, [&] { return clip_motion(rig, scene.skeleton, settings); });
   };
   if (!own_clip)
-    scene.motion = moved_by("motion.file", files.motion);
+    scene.motion =
+        moved_by("motion.file", settings.skeleton.rest_at
+                                    ? moved_from_rest(settings, files.skeleton.rig, files.motion)
+                                    : files.motion);
   else if (settings.tracks.empty() && !from.clips.empty())
     scene.motion = moved_by("skeleton.file", from);
   else

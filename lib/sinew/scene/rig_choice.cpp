@@ -114,8 +114,8 @@ void choose_clip(const Rig& rig, NewChoices& choices) {
   for (std::size_t i = 1; i < rig.clips.size(); ++i)
     choices.clips.push_back(shown(rig.clips[i].name));
   motion.begin = Begin::automatic;
-  const bool far = begins_far_from_rest(rig.skeleton, clip.motion);
-  const double preroll = far ? 0 : preroll_for(rig.skeleton, clip.motion);
+  choices.begins_posed = begins_far_from_rest(rig.skeleton, clip.motion);
+  const double preroll = choices.begins_posed ? 0 : preroll_for(rig.skeleton, clip.motion);
   const double begin = first_key(clip.motion);
   if (begin > min_wait) motion.start = begin;
   const double length = clip.duration - motion.start, played = std::min(length, longest_clip);

@@ -20,7 +20,8 @@ double three_figures(double value);
 /// Chooses by the thickness of limbs; smaller where the body does not hold together.
 void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices);
 
-/// The scene so far, prepared with this surface in place of its mesh. Throws bad input.
+/// The scene so far, prepared with this surface in place of its mesh, and from rest: what that
+/// costs is known without the first pose. Throws bad input.
 Prepared tried(const Surface& surface, const NewChoices& choices);
 
 /// Chooses the smallest radius, none larger than the present one, with under 5e8 particle-steps and
