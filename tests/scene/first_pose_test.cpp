@@ -89,6 +89,19 @@ TEST(FirstPose, AFirstFrameAtRestIsPassedOver) {
       70, 1e-6);
 }
 
+TEST(FirstPose, AFirstFrameThatNobodyComesFromIsPassedOver) {
+  const auto clip = [](double first, double second, double third) {
+    Settings settings = bent(0, Begin::pose);
+    settings.tracks[0].interpolation = Interpolation::linear;
+    settings.tracks[0].keys = {test::bend_key(0, first), test::bend_key(0.01, second),
+                               test::bend_key(0.02, third), test::bend_key(1, third)};
+    return test::prepared(settings, bar()).motion.start;
+  };
+  EXPECT_NEAR(clip(20, 60, 61), 0.01, 1e-12);
+  EXPECT_EQ(clip(20, 60, 100), 0);  // a fast motion
+  EXPECT_EQ(clip(20, 40, 41), 0);   // as fast as a kick
+}
+
 TEST(FirstPose, InitialVelocitiesAreThoseOfTheBones) {
   Settings settings = bent(60, Begin::pose);
   settings.tracks[0].interpolation = Interpolation::linear;

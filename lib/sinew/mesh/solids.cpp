@@ -7,15 +7,15 @@
 namespace sinew {
 namespace {
 
-constexpr int around = 48;   // faces around the axis
-constexpr int quarter = 12;  // rings from a pole to the equator
+constexpr int faces_around = 48, faces_of_limb = 24;  // around the axis
 
 /// A ring around the axis: its radius and height; radius 0 is a point.
 struct Ring {
   double radius, height;
 };
 
-std::vector<Ring> half_ball(double low, double height, bool upper) {
+std::vector<Ring> half_ball(double low, double height, bool upper, int around) {
+  const int quarter = around / 4;  // rings from a pole to the equator
   std::vector<Ring> rings;
   for (int i = 0; i <= quarter; ++i) {
     const double angle = pi / 2 * (upper ? i : quarter - i) / quarter;
@@ -25,19 +25,20 @@ std::vector<Ring> half_ball(double low, double height, bool upper) {
   return rings;
 }
 
-std::vector<Ring> rings_of(SolidShape shape, const Vec3& size) {
+std::vector<Ring> rings_of(SolidShape shape, const Vec3& size, int around) {
   const double high = size.z();
   if (shape == SolidShape::cylinder) return {{0, 0}, {1, 0}, {1, high}, {0, high}};
   const double end =
       shape == SolidShape::sphere ? high / 2 : std::min({size.x() / 2, size.y() / 2, high / 2});
-  std::vector<Ring> rings = half_ball(0, end, false), upper = half_ball(high - end, end, true);
+  std::vector<Ring> rings = half_ball(0, end, false, around);
+  const std::vector<Ring> upper = half_ball(high - end, end, true, around);
   const bool meet = high <= 2 * end;
   rings.insert(rings.end(), upper.begin() + (meet ? 1 : 0), upper.end());
   return rings;
 }
 
 /// First and last ring are points.
-Triangles revolved(const std::vector<Ring>& rings, double x, double y) {
+Triangles revolved(const std::vector<Ring>& rings, double x, double y, int around) {
   Triangles all;
   for (const Ring& ring : rings)
     for (int j = 0; j < (ring.radius > 0 ? around : 1); ++j) {
@@ -73,13 +74,14 @@ Triangles box_of(const Vec3& size) {
 
 Triangles solid(SolidShape shape, const Vec3& size) {
   if (shape == SolidShape::box) return box_of(size);
-  return revolved(rings_of(shape, size), size.x() / 2, size.y() / 2);
+  return revolved(rings_of(shape, size, faces_around), size.x() / 2, size.y() / 2, faces_around);
 }
 
 Triangles capsule_between(const Vec3& from, const Vec3& to, double radius) {
   const Vec3 along = to - from;
+  const Vec3 size(2 * radius, 2 * radius, along.norm() + 2 * radius);
   Triangles capsule =
-      solid(SolidShape::capsule, {2 * radius, 2 * radius, along.norm() + 2 * radius});
+      revolved(rings_of(SolidShape::capsule, size, faces_of_limb), radius, radius, faces_of_limb);
   const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), along);
   for (Vec3& point : capsule.points) point = from + turn * (point - Vec3(0, 0, radius));
   return capsule;

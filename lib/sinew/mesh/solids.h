@@ -29,7 +29,7 @@ inline constexpr std::array<std::string_view, 4> solid_names = {"box", "sphere",
 Triangles solid(SolidShape shape, const Vec3& size);
 
 /// The points within `radius` (m, > 0) of the line between two places (m, apart): as a capsule of
-/// 48 sides, whose points are on that body's surface, so that it is smaller by less than a
+/// 24 sides, whose points are on that body's surface, so that it is smaller by less than a
 /// hundredth.
 Triangles capsule_between(const Vec3& from, const Vec3& to, double radius);
 

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double rest_turn = 1, left_rest = 30;  // degrees that a bone turns from rest
 constexpr double max_frame = 0.1 + 1e-6;         // s from one frame to the next
-constexpr double far_from_rest = 90;             // the same
+constexpr double shortest_step = 0.02;           // s in which nobody turns a bone by 30 degrees
+constexpr double far_from_rest = 90;             // degrees, of a bone from rest
 constexpr int moments_of_way = 8;
 constexpr double residual = 1e-3;
 constexpr std::int64_t max_iterations = 3000;
@@ -39,25 +40,53 @@ double largest_turn(const Skeleton& skeleton, const Motion& motion) {
   return degrees(most);
 }
 
-/// The first key after the start of a clip, s of the clip; none: infinite.
-double second_key(const Motion& motion) {
+/// The first key of a clip after a time, s of the clip; none: infinite.
+double key_after(const Motion& motion, double after) {
   constexpr double same = 1e-6;  // s
-  double second = std::numeric_limits<double>::infinity();
+  double next = std::numeric_limits<double>::infinity();
   for (const Track& track : motion.tracks)
     for (const auto* times : {&track.rotation.times, &track.twist.times, &track.translation.times})
       for (const double time : *times)
-        if (time > motion.start + same) second = std::min(second, time);
-  return second;
+        if (time > after + same) next = std::min(next, time);
+  return next;
 }
 
-/// Starts with the second key where the first is the rest pose and the second is not.
+/// The largest turn of a bone on its parent between two times of a clip, degrees.
+double largest_turn(const Skeleton& skeleton, const Motion& clip, double from, double to) {
+  const auto there = [&](double time) {
+    Motion motion = from_start(clip);
+    motion.start = time;
+    return local_motions(skeleton, motion, 0);
+  };
+  const auto before = there(from), after = there(to);
+  double most = 0;
+  for (std::size_t b = 0; b < before.size(); ++b)
+    most = std::max(most, before[b].rotation.angularDistance(after[b].rotation));
+  return degrees(most);
+}
+
+/// Whether a clip is at rest at its start and not at its second key.
+bool leaves_rest(const Skeleton& skeleton, const Motion& clip, const Motion& later) {
+  return later.start - clip.start <= max_frame && largest_turn(skeleton, clip) <= rest_turn &&
+         largest_turn(skeleton, later) > left_rest;
+}
+
+/// Whether a clip jumps faster than anybody moves, and goes on slowly: its first pose is that in
+/// which the bones were measured.
+bool jumps(const Skeleton& skeleton, const Motion& clip, const Motion& later) {
+  const double third = key_after(clip, later.start);
+  if (later.start - clip.start > shortest_step || !std::isfinite(third)) return false;
+  const double jump = largest_turn(skeleton, clip, clip.start, later.start);
+  return jump > left_rest && largest_turn(skeleton, clip, later.start, third) < jump / 3;
+}
+
+/// Starts with the second key where the first is the rest pose, or one that nobody comes from, and
+/// the second is not.
 bool skip_rest(const Skeleton& skeleton, Motion& motion) {
-  if (largest_turn(skeleton, motion) > rest_turn) return false;
   Motion later = motion;
-  later.start = second_key(motion);
-  if (later.start - motion.start > max_frame || (motion.end && later.start >= *motion.end))
-    return false;
-  if (largest_turn(skeleton, later) <= left_rest) return false;
+  later.start = key_after(motion, motion.start);
+  if (!std::isfinite(later.start) || (motion.end && later.start >= *motion.end)) return false;
+  if (!leaves_rest(skeleton, motion, later) && !jumps(skeleton, motion, later)) return false;
   motion.start = later.start;
   return true;
 }
@@ -124,8 +153,7 @@ Beginning begin_of(const Settings& settings, const Body& body, Motion& motion) {
       return {};
   }
   if (skipped)
-    why += "; that is the one at " + three_digits(clip.start) +
-           " s of the clip, which is at rest before";
+    why += "; that is the one at " + three_digits(clip.start) + " s of the clip, to which it jumps";
   motion = from_start(std::move(clip));
   return {true, why};
 }

@@ -225,7 +225,7 @@ void try_out(const Surface& surface, NewChoices& choices) {
       bend_joints(prepared.body, choices);
       prepared = tried(surface, choices);
     }
-    use_budget(surface, prepared, choices);
+    use_budget(prepared, choices);
   } catch (const Error&) {  // check names what is wrong
   }
 }

@@ -32,7 +32,7 @@ constexpr double min_within = 0.1;      // of the particles, with neighbors on a
 // where limbs are thin, but for those that hold a twentieth of the body.
 constexpr double usual_work = 5e8, usual_particles = 1e5, largest_work = 2e9, max_particles = 3e5;
 constexpr double min_across = 4, thin_volume = 0.05;
-constexpr int max_trials = 3;
+constexpr double foreseen = 0.95;  // of the work, which a trial with another radius tells nearly
 
 /// Distance from the surface along the limbs: a tenth of their length is thinner.
 double thin_inner(const std::vector<Limb>& limbs) {
@@ -133,8 +133,7 @@ Prepared tried(const Surface& surface, const NewChoices& choices) {
   settings.body.mesh = "body";
   settings.body.unit = LengthUnit::m, settings.body.up = Axis::z, settings.body.forward.reset();
   settings.meshes["body"] = std::move(soup);
-  if (choices.begins_posed) settings.motion.preroll = 0;
-  settings.motion.begin = Begin::rest;
+  settings.motion.begin = choices.begins_posed ? Begin::pose : Begin::rest;
   return prepare({std::move(settings)});
 }
 
@@ -148,7 +147,14 @@ struct Trial {
 
   /// The radius for so much work and so many particles: steps become as short as particles small.
   double for_at_most(double other_work, double count) const {
-    return radius * std::max(std::pow(work / other_work, 0.25), std::cbrt(particles / count));
+    return radius *
+           std::max(std::pow(work / (foreseen * other_work), 0.25), std::cbrt(particles / count));
+  }
+
+  /// The same with another radius.
+  Trial with(double other) const {
+    const double finer = radius / other;
+    return {other, particles * std::pow(finer, 3), work * std::pow(finer, 4), across * finer, thin};
   }
 };
 
@@ -193,17 +199,10 @@ std::string size_text(const Trial& trial) {
 
 }  // namespace
 
-void use_budget(const Surface& surface, const Prepared& first, NewChoices& choices) {
+void use_budget(const Prepared& first, NewChoices& choices) {
   double& radius = *choices.settings.body.radius;
-  const double largest = radius;
-  Trial trial = measured(first);
-  for (int k = 0; k < max_trials; ++k) {
-    const double next = radius_by(trial, largest);
-    // What a trial allows is near what it is of.
-    if (std::abs(next / radius - 1) < 0.03) break;
-    radius = next;
-    trial = measured(tried(surface, choices));
-  }
+  const Trial tried = measured(first), trial = tried.with(radius_by(tried, radius));
+  radius = trial.radius;
   choices.particles = static_cast<std::size_t>(trial.particles);
   choices.size = size_text(trial);
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr double longest_rig_in_m = 20;                      // of a rig that is no figure
 constexpr double shortest_human = 1.5, tallest_human = 1.9;  // m
 constexpr double clearly_up = 1.3;  // times as far along one axis as along y
-constexpr double finest_wrap = 0.006, coarsest_wrap = 0.01;  // of the height
+constexpr double finest_wrap = 0.009, coarsest_wrap = 0.014;  // of the height
 constexpr int poses_for_up = 60;
 
 struct CaptureUnit {

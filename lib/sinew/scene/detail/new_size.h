@@ -3,7 +3,7 @@
 // a run may take.
 //
 //     choose_radius(surface, limbs, choices);
-//     use_budget(surface, tried(surface, choices), choices);
+//     use_budget(tried(surface, choices), choices);
 #pragma once
 
 #include <vector>
@@ -27,6 +27,6 @@ Prepared tried(const Surface& surface, const NewChoices& choices);
 /// Chooses the smallest radius, none larger than the present one, with under 5e8 particle-steps and
 /// 100,000 particles; where limbs are under four particles thick, but for those that hold a
 /// twentieth of the body, up to 2e9 and 300,000. `first`: tried with the present radius.
-void use_budget(const Surface& surface, const Prepared& first, NewChoices& choices);
+void use_budget(const Prepared& first, NewChoices& choices);
 
 }  // namespace sinew
