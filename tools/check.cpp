@@ -169,10 +169,9 @@ void add_stretches(const Prepared& prepared, Results& results) {
 }
 
 /// Flesh that the motion drives into other flesh.
-void add_intrusions(const Prepared& prepared, Results& results) {
+void add_intrusions(const Prepared& prepared, std::span<const Intrusion> found, Results& results) {
   constexpr std::size_t max_lines = 8;
   const double r = prepared.body.material.pair.r;
-  const auto found = intrusions_of(prepared);
   auto all = nlohmann::ordered_json::array();
   for (const Intrusion& one : found) {
     const auto name = [&](int bone) {
@@ -287,10 +286,20 @@ void prepare_to_draw() { ensure_display(); }
 void draw(const Prepared& prepared, const std::string& picture) {
   write_scene_picture(scene_snapshot(prepared), {}, {}, picture);
 }
+void draw(const Prepared& prepared, const Intrusion& found, const std::string& picture) {
+  write_scene_picture(intrusion_snapshot(prepared, found), {}, {}, picture);
+}
 #else
 void prepare_to_draw() { throw draws_nothing(); }
 void draw(const Prepared&, const std::string&) {}
+void draw(const Prepared&, const Intrusion&, const std::string&) {}
 #endif
+
+/// "scene_meets.png" beside "scene.png".
+std::string beside_picture(const std::string& picture) {
+  std::filesystem::path path = picture;
+  return path.replace_filename(path.stem().string() + "_meets.png").string();
+}
 
 Exit check(const std::string& scene, const std::string& picture, const Common& common) {
   refuse_mesh_as_scene(scene);
@@ -320,7 +329,8 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   for (const ModelLimit& limit : model_limits(prepared))
     results.add(limit.key, limit.value, limit.text);
   add_stretches(prepared, results);
-  add_intrusions(prepared, results);
+  const std::vector<Intrusion> meeting = intrusions_of(prepared);
+  add_intrusions(prepared, meeting, results);
   if (prepared.load_steps)
     add_load_steps(prepared, rate, results);
   else
@@ -336,6 +346,11 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   if (!picture.empty()) {
     draw(prepared, picture);
     results.add("picture", picture);
+    if (!meeting.empty()) {
+      const std::string beside = beside_picture(picture);
+      draw(prepared, meeting.front(), beside);
+      results.add("picture_of_flesh_meeting", beside);
+    }
   }
   results.add("warnings", warnings.size());
   results.print(common);

@@ -115,6 +115,32 @@ Snapshot scene_snapshot(const RunFiles& run) {
                       read_obstacles(run, 0)});
 }
 
+Snapshot intrusion_snapshot(const Prepared& prepared, const Intrusion& found) {
+  const Body& body = prepared.body;
+  const Pose pose = pose_at(body.skeleton, prepared.motion, found.deepest);
+  Snapshot snapshot;
+  snapshot.radius = body.material.pair.r;
+  snapshot.caption =
+      intrusions_text({&found, 1}, body) + " at " + three_digits(found.deepest) + " s";
+  snapshot.surface = prepared.surface.triangles;
+  Points& skin = snapshot.surface.points;
+  skin = dual_quaternion_skinned(skin, carried_weights(body.rest, weights_of(body.binding), skin),
+                                 body.skeleton, pose);
+  const Points now = skinned(body, pose);
+  for (const std::uint32_t i : overlapping(body, pose, found.bones)) {
+    snapshot.particles.push_back(now[i]);
+    snapshot.marks.push_back(Mark::within);
+  }
+  for (std::size_t b = 0; b < pose.size(); ++b) {
+    const BonePose& bone = pose[b];
+    const Vec3 head = bone.frame.origin;
+    snapshot.bones.push_back({head,
+                              bone.carried(body.skeleton.bones[b].tail(), body.skeleton.bones[b]),
+                              bone.frame.rotation});
+  }
+  return snapshot;
+}
+
 void write_scene_picture(const Snapshot& scene, const ElevationOptions& options,
                          const PageFiles& files, const std::string& path) {
   Painter painter(scene.surface, {});

@@ -10,6 +10,7 @@
 #include <sinew/render/elevations.h>
 #include <sinew/render/figure.h>
 #include <sinew/run/run_files.h>
+#include <sinew/scene/intrusions.h>
 #include <sinew/scene/prepare.h>
 
 namespace sinew {
@@ -19,6 +20,9 @@ Snapshot scene_snapshot(const Prepared& prepared);
 
 /// The same from the files of its run.
 Snapshot scene_snapshot(const RunFiles& run);
+
+/// The skin by dual quaternions where flesh is deepest in other flesh, with the particles that are.
+Snapshot intrusion_snapshot(const Prepared& prepared, const Intrusion& found);
 
 /// On the backdrop of `files`, not on the paper of `options`. Needs a display. Throws not written,
 /// and as elevations() does.

@@ -24,6 +24,7 @@ inline constexpr Color faint_ink{112, 118, 126};
 inline constexpr Color particle{206, 164, 138};  ///< without a value
 inline constexpr Color held{30, 34, 40};
 inline constexpr Color loaded{134, 72, 178};
+inline constexpr Color within{226, 106, 36};
 inline constexpr Color sample{236, 120, 12};
 inline constexpr Color muscle{206, 44, 48};
 inline constexpr Color obstacle{128, 134, 142};

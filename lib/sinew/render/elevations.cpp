@@ -145,6 +145,7 @@ std::vector<LegendEntry> legend_of(const Snapshot& snapshot, const Plan& plan) {
   if (!snapshot.bones.empty()) entries.push_back({"bones", palette::bone, dot});
   if (has(Mark::held)) entries.push_back({"held", palette::held, dot});
   if (has(Mark::loaded)) entries.push_back({"loaded", palette::loaded, dot});
+  if (has(Mark::within)) entries.push_back({"flesh in flesh", palette::within, dot});
   if (has(Mark::muscle)) entries.push_back({"muscles", {232, 148, 146}, dot});
   if (!snapshot.obstacles.faces.empty()) entries.push_back({"obstacles", {192, 196, 200}, dot});
   return entries;

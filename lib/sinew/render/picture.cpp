@@ -281,7 +281,7 @@ Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) 
   if (view == View::curves)
     add_curves(stage_.renderer(), snapshot, scale_, std::max(0.5 * sizes.grain, 3 * sizes.pixel));
   if (view == View::plan)
-    for (const Mark mark : {Mark::held, Mark::loaded, Mark::sample})
+    for (const Mark mark : {Mark::held, Mark::loaded, Mark::sample, Mark::within})
       add_particles(stage_.renderer(), marked(snapshot, mark), scale_, stage_.view());
   shine_through(picture.image, shaded(Readback::all, sizes, 2 * sizes.grain), 1);
   return picture;

@@ -65,6 +65,7 @@ enum class Mark : std::uint8_t {
   loaded,  ///< by a force or a pressure, drawn violet
   muscle,  ///< drawn red
   sample,  ///< shown for its size
+  within,  ///< other flesh, drawn orange
 };
 
 /// One moment. Any part may be empty and is then not drawn.

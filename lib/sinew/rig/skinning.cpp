@@ -85,6 +85,13 @@ std::vector<BoneWeight> mean_of(const std::vector<NearVertex>& near, const BoneW
 
 }  // namespace
 
+BoneWeights weights_of(const Binding& binding) {
+  BoneWeights weights;
+  weights.first = binding.first;
+  for (const Influence& one : binding.influences) weights.weights.push_back({one.bone, one.weight});
+  return weights;
+}
+
 BoneWeights carried_weights(const Points& vertices, const BoneWeights& weights,
                             const Points& points) {
   std::vector<std::uint32_t> weighted;  // vertices

@@ -15,6 +15,7 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
+#include <sinew/rig/binding.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/pose.h>
 
@@ -26,6 +27,9 @@ struct SkinnedRig {
   PolygonSoup mesh;     ///< the meshes that it moves, in the bind pose; empty for a rig alone
   BoneWeights weights;  ///< of mesh.points
 };
+
+/// The weights with which a binding skins each particle.
+BoneWeights weights_of(const Binding& binding);
 
 /// The weights of `vertices` (n x 3, m) at other points (m): the mean over the eight nearest
 /// vertices that have weights, weighted by inverse distance; the four heaviest bones remain. A

@@ -42,14 +42,6 @@ Column rows_of(Column column, const std::vector<std::int32_t>& ids) {
   return column;
 }
 
-BoneWeights weights_of_vertices(const Body& body, const Points& vertices) {
-  BoneWeights weights;
-  weights.first = body.binding.first;
-  for (const Influence& influence : body.binding.influences)
-    weights.weights.push_back({influence.bone, influence.weight});
-  return carried_weights(body.rest, weights, vertices);
-}
-
 Dataset obstacles_of(const std::vector<Triangles>& surfaces, const std::vector<ObstaclePose>& poses,
                      const std::vector<Reaction>& reactions, Moment moment) {
   std::vector<ObstacleFrame> frames;
@@ -246,7 +238,8 @@ Dataset FrameData::surface() {
 }
 
 Dataset FrameData::skinned(SkinningMethod method) {
-  if (vertex_weights_.first.empty()) vertex_weights_ = weights_of_vertices(body_, skin_.rest);
+  if (vertex_weights_.first.empty())
+    vertex_weights_ = carried_weights(body_.rest, weights_of(body_.binding), skin_.rest);
   const Triangles moved{method(skin_.rest, vertex_weights_, body_.skeleton, now_.pose),
                         surface_.faces};
   return surface_dataset(moved, skin_.rest, surface_bone_, now_.moment);

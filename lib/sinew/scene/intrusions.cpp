@@ -23,13 +23,6 @@ constexpr double min_depth = 0.5;      // radii: rows of a lattice do not lie cl
 constexpr double apart_at_rest = 3.9;  // radii: 1.5 ranges of the attraction
 constexpr std::size_t max_outer = 60'000;
 
-BoneWeights weights_of(const Binding& binding) {
-  BoneWeights weights;
-  weights.first = binding.first;
-  for (const Influence& one : binding.influences) weights.weights.push_back({one.bone, one.weight});
-  return weights;
-}
-
 Pair pair_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Particles at the body's surface.
@@ -134,16 +127,35 @@ class Overlaps {
     return all;
   }
 
+  /// The particles of a pair of bones that overlap.
+  std::vector<Particle> of(const Pair& bones, const Points& now) const {
+    const CellGrid grid(now, reach());
+    std::vector<Particle> all;
+    for (const Particle i : outer_)
+      for_each_overlap(i, now, grid, [&](Particle j, double) {
+        if (pair_of(bone_[i], bone_[j]) == bones) all.push_back(i), all.push_back(j);
+      });
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
  private:
   double reach() const { return 2 * body_.material.pair.r; }
 
   void add(Particle i, const Points& now, const CellGrid& grid, Depths& all) const {
+    for_each_overlap(i, now, grid, [&](Particle j, double depth) {
+      put(pair_of(bone_[i], bone_[j]), depth, all);
+    });
+  }
+
+  template <class Use>
+  void for_each_overlap(Particle i, const Points& now, const CellGrid& grid, const Use& use) const {
     if (bone_[i] == no_bone) return;
     grid.for_each_near(now[i], [&](Particle j) {
       if (bone_[j] == bone_[i] || bone_[j] == no_bone) return;
       const double distance = (now[i] - now[j]).norm();
-      if (distance < reach() && meet(i, j))
-        put(pair_of(bone_[i], bone_[j]), reach() - distance + depth_[j], all);
+      if (distance < reach() && meet(i, j)) use(j, reach() - distance + depth_[j]);
     });
   }
 
@@ -191,6 +203,11 @@ std::vector<Intrusion> intrusions(const Body& body, const Motion& motion,
   std::stable_sort(all.begin(), all.end(),
                    [](const Intrusion& a, const Intrusion& b) { return a.depth > b.depth; });
   return all;
+}
+
+std::vector<std::uint32_t> overlapping(const Body& body, const Pose& pose,
+                                       const std::array<int, 2>& bones) {
+  return Overlaps(body).of(bones, skinned(body, pose));
 }
 
 std::string intrusions_text(std::span<const Intrusion> found, const Body& body) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,10 @@ inline constexpr double passing_depth = 1.5;
 /// flesh within the width of the limb around these. In parallel.
 std::vector<Intrusion> intrusions(const Body& body, const Motion& motion,
                                   std::span<const double> times);
+
+/// The particles of two bones that overlap at `pose`, ascending.
+std::vector<std::uint32_t> overlapping(const Body& body, const Pose& pose,
+                                       const std::array<int, 2>& bones);
 
 /// The particles of the body at `pose`, by id, m: by dual quaternions, with the weights of its
 /// binding. Those without a bone stay.

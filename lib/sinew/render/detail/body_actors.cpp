@@ -63,6 +63,8 @@ Color color_of(const Snapshot& snapshot, std::size_t particle, const ColorScale&
       return palette::muscle;
     case Mark::sample:
       return palette::sample;
+    case Mark::within:
+      return palette::within;
     case Mark::none:
       break;
   }
