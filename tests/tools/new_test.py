@@ -81,6 +81,37 @@ def scaled(glb, factor):
     return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
 
 
+def human(unit):
+    """A BVH file of somebody 1.73 m tall, lengths in so many units per meter."""
+    leg = lambda side: {"Thigh": ((side * 0.1, -0.04, 0), {"Shin": ((0, -0.43, 0), {"Foot": (  # noqa: E731
+        (0, -0.42, 0), {"Toe": ((0, -0.06, 0.14), {})})})})}
+    arm = lambda side: {"Collar": ((side * 0.04, 0.1, 0), {"Arm": ((side * 0.14, 0, 0), {"Forearm": (  # noqa: E731
+        (side * 0.29, 0, 0), {"Hand": ((side * 0.26, 0, 0), {})})})})}
+    sides = lambda limb: {word + name: part for side, word in ((1, "left"), (-1, "right"))  # noqa: E731
+                          for name, part in limb(side).items()}
+    body = {**sides(leg), "spine": ((0, 0.12, 0), {"chest": ((0, 0.2, 0), {
+        **sides(arm), "neck": ((0, 0.2, 0), {"head": ((0, 0.1, 0), {})})})})}
+    count = 0
+
+    def joint(name, offset, children, depth):
+        nonlocal count
+        count += 1
+        space, length = "  " * depth, " ".join(f"{unit * x:g}" for x in offset)
+        channels = "6 Xposition Yposition Zposition" if depth == 0 else "3"
+        text = f"{space}{'JOINT' if depth else 'ROOT'} {name}\n{space}{{\n{space}  OFFSET {length}\n"
+        text += f"{space}  CHANNELS {channels} Zrotation Xrotation Yrotation\n"
+        for child, (place, parts) in children.items():
+            text += joint(child, place, parts, depth + 1)
+        if not children:
+            end = 0.16 if name == "head" else 0
+            text += f"{space}  End Site\n{space}  {{\n{space}    OFFSET 0 {unit * end:g} {unit * 0.05 * (not end):g}\n{space}  }}\n"
+        return text + f"{space}}}\n"
+
+    text = "HIERARCHY\n" + joint("hips", (0, 0.95, 0), body, 0)
+    turns = " 0" * (3 * count)
+    return text + f"MOTION\nFrames: 2\nFrame Time: 0.1\n" + 2 * (f"0 {unit * 0.95:g} 0" + turns + "\n")
+
+
 def corners_of(obj, smaller):
     """Moved inward by so much along each axis; `obj` is a box from 0."""
     corners = [[float(x) for x in line.split()[1:]] for line in obj.splitlines() if line[0] == "v"]
@@ -172,6 +203,30 @@ class New(unittest.TestCase):
     def test_a_sheet_becomes_a_layer(self):
         self.make(self.write("sheet.obj", SHEET))
         self.runs()
+
+    def test_an_open_shell_beside_a_body_becomes_a_layer(self):
+        skirt = "".join(f"v {150 + 90 * math.cos(a)} {50 + 90 * math.sin(a)} {z}\n"
+                        for z in (0, 300) for a in (k * math.pi / 12 for k in range(24)))
+        skirt += "".join(f"f {9 + k} {9 + (k + 1) % 24} {33 + (k + 1) % 24} {33 + k}\n" for k in range(24))
+        lines = [re.sub(r"v (\S+)", lambda m: f"v {float(m[1]) + 100:g}", line) for line in BAR.splitlines()]
+        self.make(self.write("dressed.obj", "\n".join(line for line in lines if line[0] == "v") + "\n" + skirt
+                             + "\n".join(line for line in lines if line[0] == "f") + "\n"))
+        self.assertIn("along 1 open shell of", self.scene.read_text())
+        sinew("check", self.scene, check=0)
+
+    def test_a_run_takes_the_work_that_drawing_does(self):
+        self.make(SOURCE / "data/motions/fox.glb")
+        checked = json.loads(sinew("check", self.scene, "--json", check=0).stdout)
+        work = checked["particles"] * checked["steps"]
+        self.assertLess(work, 5e8)
+        self.assertTrue(work > 4e8 or checked["particles"] > 8e4, (work, checked["particles"]))
+
+    def test_a_rig_alone_is_as_tall_as_a_human(self):
+        units = {"meters": 1, "centimeters": 100, "inches": 1 / 0.0254, "CMU": 0.45 / 0.0254, "millimeters": 1000}
+        for word, unit in units.items():
+            made = self.make(self.write(f"{word}.bvh", human(unit)), "--force")
+            self.assertIn(word, made["unit"])
+            self.assertAlmostEqual(float(made["unit"].split()[-2]), 1.73, delta=0.1)
 
     def test_a_rig_gives_bones_weights_and_one_of_its_clips(self):
         self.make(SOURCE / "data/motions/fox.glb")

@@ -189,7 +189,7 @@ double radius_by(const Trial& trial, double largest) {
 }
 
 std::string size_text(const Trial& trial) {
-  std::string text = "About " + three_digits(trial.particles) + " particles, " +
+  std::string text = "About " + number_text(three_figures(trial.particles)) + " particles, " +
                      three_digits(trial.work) + " particle-steps; ";
   if (trial.across >= min_across)
     return text + "at least 4 across the limbs that hold 95 % of the volume";

@@ -7,6 +7,7 @@
 #include <sinew/rig/bvh/bvh.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/rig.h>
+#include <sinew/scene/scene_files.h>
 #include <sinew/settings/read_scene.h>
 
 namespace sinew::scene_test {
@@ -56,6 +57,25 @@ TEST(BvhScene, BoxBendMovesAsItsScene) {
 TEST(BvhScene, TheWalkMovesAsItsScene) {
   expect_same_bones("creature_walk.yaml", "walk.bvh");
   expect_same_motion("creature_walk.yaml", "walk.bvh");
+}
+
+TEST(BvhScene, AnotherFilesClipStartsFromTheSameRestPoseOfAClip) {
+  Settings settings;
+  settings.skeleton.file = source + "/data/motions/walk.bvh";
+  settings.skeleton.rest_at = 0.5;
+  settings.motion.preroll = 0;
+  const SceneRig own = rig_of(settings, read_rig_files(settings));
+  settings.motion.file = settings.skeleton.file;
+  const SceneRig other = rig_of(settings, read_rig_files(settings));
+  for (const double time : {0.0, 0.3, 0.5, 1.2}) {
+    const Pose a = pose_at(own.skeleton, own.motion, time);
+    const Pose b = pose_at(other.skeleton, other.motion, time);
+    for (std::size_t bone = 0; bone < a.size(); ++bone) {
+      EXPECT_LT((a[bone].frame.origin - b[bone].frame.origin).norm(), 1e-12);
+      const double turned = (a[bone].turn - Mat3::Identity()).norm();
+      EXPECT_TRUE(time != 0.5 || turned < 1e-9) << turned;
+    }
+  }
 }
 
 }  // namespace sinew::scene_test
