@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include <sinew/core/error.h>
@@ -161,6 +162,22 @@ bool show_values(const std::vector<SheetRow>& rows) {
   });
 }
 
+/// Moves the columns apart until the title has room, and with `keys` what is below them.
+void widen(SheetLayout& layout, const SheetOptions& options, bool keys) {
+  constexpr double letter = 0.52;  // of the size, the mean width
+  std::size_t longest = keys ? 80 : 0;
+  std::istringstream title(options.title);
+  for (std::string line; std::getline(title, line);) longest = std::max(longest, line.size());
+  const double room = letter * layout.text.size * static_cast<double>(longest);
+  const int least = std::min(options.width, 2 * layout.margin + static_cast<int>(room));
+  const int missing = least - layout.width;
+  if (missing <= 0) return;
+  const int gaps = static_cast<int>(layout.columns.size()) + 1;
+  for (int k = 0; k < gaps - 1; ++k)
+    layout.columns[static_cast<std::size_t>(k)].x += missing * (k + 1) / gaps;
+  layout.width = least;
+}
+
 SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& options) {
   SheetLayout layout;
   layout.columns = columns_of(rows, options.view);
@@ -169,6 +186,7 @@ SheetLayout layout_of(const std::vector<SheetRow>& rows, const SheetOptions& opt
   layout.text.color = options.paper.ink;
   layout.paper = options.paper.background;
   lay_columns(layout, options);
+  widen(layout, options, options.rulers && options.axes && show_values(rows));
   int y = 0;
   if (!options.title.empty())
     y = layout.margin / 2 + lines_in(options.title) * line_height(layout.text);
