@@ -166,10 +166,15 @@ Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
   settings.skeleton.up = placing.rig.up, settings.skeleton.forward = placing.rig.forward;
   settings.skeleton.scale = placing.scale;
   fit_if_better(surface, skeleton, settings, placing);
-  const bool turned = settings.body.up != placing.mesh.up;
-  settings.body.up = placing.mesh.up, settings.body.forward = placing.mesh.forward;
-  if (turned)
-    surface = read_body_mesh(settings.body, settings), choices.axes = "the bones of the rig lie so";
+  if (settings.body.up != placing.mesh.up) {
+    const Mat3 before = to_scene(settings.body);
+    settings.body.up = placing.mesh.up, settings.body.forward = placing.mesh.forward;
+    const Mat3 turn = to_scene(settings.body) * before.transpose();
+    for (Triangles* part : {&surface.triangles, &surface.caps})
+      for (Vec3& point : part->points) point = turn * point;
+    choices.axes = "the bones of the rig lie so";
+  }
+  settings.body.forward = placing.mesh.forward;
   choices.bones = std::to_string(skeleton.size()) + " bones of the rig, " +
                   three_digits(std::round(100 * placing.fraction)) + " % of them inside the mesh";
   if (settings.skeleton.fit == Fit::mesh) choices.bones += ", where skeleton.fit brings them";
