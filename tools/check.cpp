@@ -295,10 +295,16 @@ void draw(const Prepared&, const std::string&) {}
 void draw(const Prepared&, const Intrusion&, const std::string&) {}
 #endif
 
-/// "scene_meets.png" beside "scene.png".
-std::string beside_picture(const std::string& picture) {
+/// Draws the scene, and beside scene.png in scene_meets.png where flesh is deepest in flesh.
+void add_pictures(const Prepared& prepared, const std::vector<Intrusion>& meeting,
+                  const std::string& picture, Results& results) {
+  draw(prepared, picture);
+  results.add("picture", picture);
+  if (meeting.empty()) return;
   std::filesystem::path path = picture;
-  return path.replace_filename(path.stem().string() + "_meets.png").string();
+  path.replace_filename(path.stem().string() + "_meets.png");
+  draw(prepared, meeting.front(), path.string());
+  results.add("picture_of_meeting", path.string());
 }
 
 Exit check(const std::string& scene, const std::string& picture, const Common& common) {
@@ -343,15 +349,7 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
     results.add(key, bytes_text(static_cast<double>(bytes)));
   results.add("particle_steps_per_second", rate);
   if (!prepared.load_steps) results.add("stepping_time", work / rate, "s");
-  if (!picture.empty()) {
-    draw(prepared, picture);
-    results.add("picture", picture);
-    if (!meeting.empty()) {
-      const std::string beside = beside_picture(picture);
-      draw(prepared, meeting.front(), beside);
-      results.add("picture_of_flesh_meeting", beside);
-    }
-  }
+  if (!picture.empty()) add_pictures(prepared, meeting, picture, results);
   results.add("warnings", warnings.size());
   results.print(common);
   for (const std::string& warning : warnings) print_error("sinew: warning: " + warning);

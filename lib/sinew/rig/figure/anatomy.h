@@ -16,11 +16,11 @@ namespace sinew {
 
 /// Two limbs of one length that leave the same bone.
 struct LimbPair {
-  int fork = no_bone;                              ///< the bone that they leave
-  std::array<int, 2> first = {no_bone, no_bone};   ///< its children, such as collar bones
-  std::array<int, 2> joint = {no_bone, no_bone};   ///< the first long bones, such as upper arms
-  std::array<int, 2> tip = {no_bone, no_bone};     ///< the last bones on the longest way
-  std::array<double, 2> length = {0, 0};           ///< from `first` to the tail of `tip`
+  int fork = no_bone;                             ///< the bone that they leave
+  std::array<int, 2> first = {no_bone, no_bone};  ///< its children, such as collar bones
+  std::array<int, 2> joint = {no_bone, no_bone};  ///< the first long bones, such as upper arms
+  std::array<int, 2> tip = {no_bone, no_bone};    ///< the last bones on the longest way
+  std::array<double, 2> length = {0, 0};          ///< from `first` to the tail of `tip`
 };
 
 struct Anatomy {

@@ -36,7 +36,8 @@ std::vector<FigurePart> figure_of(const Skeleton& skeleton, const Anatomy& anato
 class Neighborhood {
  public:
   Neighborhood(const Skeleton& skeleton, const Anatomy& anatomy);
-  /// The distance of their lines; of bones of one parent that of their outer halves. Infinite for neighbors.
+  /// The distance of their lines; of bones of one parent that of their outer halves. Infinite for
+  /// neighbors.
   double distance(const FigurePart& a, const FigurePart& b) const;
 
  private:
