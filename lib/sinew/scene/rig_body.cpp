@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
-#include <sinew/mesh/solids.h>
-#include <sinew/repair/repair.h>
+#include <sinew/repair/capsules.h>
 #include <sinew/rig/figure/figure.h>
 #include <sinew/rig/rest_at.h>
 #include <sinew/scene/scene_files.h>
@@ -18,7 +17,7 @@ namespace {
 constexpr double longest_rig_in_m = 20;                      // of a rig that is no figure
 constexpr double shortest_human = 1.5, tallest_human = 1.9;  // m
 constexpr double clearly_up = 1.3;  // times as far along one axis as along y
-constexpr double finest_wrap = 0.009, coarsest_wrap = 0.014;  // of the height
+constexpr double side = 0.014;      // of the skin's faces, of the height
 constexpr int poses_for_up = 60;
 
 struct CaptureUnit {
@@ -27,9 +26,10 @@ struct CaptureUnit {
 };
 
 /// Units of the files of motion capture, the usual ones first.
-constexpr std::array<CaptureUnit, 5> capture_units = {
+constexpr std::array<CaptureUnit, 6> capture_units = {
     {{1, "meters"},
      {0.01, "centimeters"},
+     {0.1, "decimeters"},
      {0.0254, "inches"},
      {0.0254 / 0.45, "units of 1/0.45 inch, as CMU's"},
      {0.001, "millimeters"}}};
@@ -89,16 +89,12 @@ void choose_axes(Axis up, RigBody& body) {
   body.axes = std::string(names[static_cast<std::size_t>(up)]) + " of the rig";
 }
 
-/// One skin around all parts, with faces smaller than the gaps between them.
+/// One skin around all parts.
 Triangles skin_of(const std::vector<FigurePart>& parts, double height) {
-  Triangles capsules;
-  double thinnest = std::numeric_limits<double>::infinity();
-  for (const FigurePart& part : parts) {
-    if (part.radius < 1e-3 * height) continue;
-    append(capsule_between(part.from, part.to, part.radius), capsules);
-    thinnest = std::min(thinnest, part.radius);
-  }
-  return wrap(capsules, std::clamp(thinnest, finest_wrap * height, coarsest_wrap * height));
+  std::vector<Capsule> capsules;
+  for (const FigurePart& part : parts)
+    if (part.radius >= 1e-3 * height) capsules.push_back({part.from, part.to, part.radius});
+  return skin_around(capsules, side * height);
 }
 
 }  // namespace

@@ -174,8 +174,9 @@ int read_frame_count(BvhText& text, std::size_t channels) {
   if (frames < 1)
     throw text.wrong("a clip of " + std::to_string(frames) + " frames",
                      "give it at least one, or leave out MOTION");
-  // Each value takes a digit and a space, except the last.
-  const std::uint64_t room = (text.rest().size() + 1) / 2;
+  // Each value takes a digit and a space, except the last. A file that is cut has fewer.
+  constexpr std::uint64_t cut = 10;
+  const std::uint64_t room = cut * (text.rest().size() + 1) / 2;
   if (static_cast<std::uint64_t>(frames) > room / channels)
     throw text.wrong(std::to_string(frames) + " frames of " + std::to_string(channels) +
                          " values do not fit into the " + std::to_string(text.rest().size()) +
@@ -266,7 +267,7 @@ void read_motion(BvhText& text, Bvh& bvh) {
   bvh.frame_time = read_frame_time(text);
   const std::string_view frames = text.rest();
   const std::size_t count = static_cast<std::size_t>(bvh.frames) * channels;
-  bvh.values.reserve(count);
+  bvh.values.reserve(std::min(count, frames.size() / 2 + 1));
   const auto read_until = [&](std::size_t size) {
     while (bvh.values.size() < size) {
       if (text.at_end()) return end_early(text, bvh, frames);

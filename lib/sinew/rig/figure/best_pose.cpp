@@ -67,6 +67,7 @@ std::optional<double> best_pose(const Rig& rig, const Anatomy& anatomy, const Ve
   Rig one;  // without its clips, which need not turn with it
   one.skeleton = rig.skeleton;
   std::vector<double> open;
+  open.reserve(times.size());
   for (const double time : times)
     open.push_back(openness(with_rest_at(one, clip, time).skeleton, anatomy, up));
   const double best = *std::max_element(open.begin(), open.end());
