@@ -38,8 +38,15 @@ def said_by_check(sinew, scene):
 
 
 def shift_of_run(sinew, scene, folder):
-    """Root mean square at the end, in radii; infinite for a run that became unstable."""
-    done = subprocess.run([sinew, "simulate", scene, "-o", folder, "--quiet"], capture_output=True, text=True)
+    """Root mean square at the end, in radii; infinite for a run that became unstable. A body that has collapsed after
+    2 s is not followed: its particles have hundreds of neighbors, which takes minutes."""
+    early = shift_at(sinew, scene, folder.with_suffix(".early"), 2)
+    return early if early > 0.6 else shift_at(sinew, scene, folder, 10)
+
+
+def shift_at(sinew, scene, folder, end):
+    done = subprocess.run([sinew, "simulate", scene, "-o", folder, "--quiet", "--set", f"solver.duration={end}"],
+                          capture_output=True, text=True)
     if done.returncode == 3:
         return math.inf
     if done.returncode != 0:
