@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
-#include <sinew/scene/detail/new_joints.h>
+#include <sinew/scene/new_scene.h>
 #include <sinew/world/world.h>
 #include "support/world.h"
 

@@ -17,7 +17,6 @@
 #include <sinew/repair/curve_skeleton.h>
 #include <sinew/rig/limbs.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/detail/new_joints.h>
 #include <sinew/scene/detail/new_size.h>
 
 namespace sinew {

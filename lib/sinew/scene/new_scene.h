@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <sinew/body/body.h>
 #include <sinew/core/vector.h>
 #include <sinew/mesh/surface.h>
 #include <sinew/settings/settings.h>
@@ -100,5 +101,15 @@ Surface use_rig(const std::string& rig, Surface surface, NewChoices& choices);
 
 /// The same for the skin of a rig alone, which lies where the rig does.
 void use_rig(const RigBody& figure, const Surface& surface, NewChoices& choices);
+
+// A motion that shows the joints of a rig without a clip.
+
+/// The joints, at most twelve, on both sides of which there is flesh; of more those whose bones
+/// hold the most particles. Ascending.
+std::vector<int> joints_that_skin_follows(const Body& body);
+
+/// Bends them one after the other, as they are bent at rest, and back. Leaves the motion as it is
+/// where there are none.
+void bend_joints(const Body& body, NewChoices& choices);
 
 }  // namespace sinew
