@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/repair/capsules.h>
 
+#include <sinew/repair/detail/addresses.h>
+#undef CGAL_ALLOCATOR
+#define CGAL_ALLOCATOR(T) sinew::Ascending<T>
 #include <CGAL/Complex_2_in_triangulation_3.h>
 #include <CGAL/IO/facets_in_complex_2_to_triangle_mesh.h>
 #include <CGAL/Implicit_surface_3.h>
@@ -76,6 +79,7 @@ Kernel::Sphere_3 sphere_around(const std::vector<Capsule>& capsules) {
 /// Empty where there is nothing to mesh.
 Triangles meshed(const std::vector<Capsule>& capsules, double side) {
   if (capsules.empty()) return {};
+  const Addresses ascending;
   CGAL::get_default_random() = CGAL::Random(seed);  // the mesher's first rays
   Delaunay delaunay;
   Complex complex(delaunay);
