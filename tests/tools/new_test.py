@@ -134,12 +134,18 @@ class New(unittest.TestCase):
         done = sinew("new", *words, "-o", self.scene, "--json", check=0)
         return json.loads(done.stdout)
 
+    def coarsely(self):
+        radius = float(re.search(r"radius: (\S+)", self.scene.read_text()).group(1))
+        return "--set", f"body.radius={COARSER * radius}"
+
+    def check(self):
+        """What check says of the scene, coarsely."""
+        return sinew("check", self.scene, *self.coarsely(), check=0)
+
     def runs(self, *sets):
         """Filled, moved and measured, without pictures, coarsely; the metrics of a body that is not torn."""
         out = self.folder / "out"
-        radius = float(re.search(r"radius: (\S+)", self.scene.read_text()).group(1))
-        sinew("simulate", self.scene, "-o", out, "--quiet", "--force", "--set", f"body.radius={COARSER * radius}", *sets,
-              check=0, timeout=200)
+        sinew("simulate", self.scene, "-o", out, "--quiet", "--force", *self.coarsely(), *sets, check=0, timeout=200)
         limits = ["--fail-on", "inverted > 0.01", "--fail-on", "volume_error > 0.05"]
         sinew("measure", out, "--quiet", *limits, check=0, timeout=200)
         return json.loads((out / "run.json").read_text())
@@ -172,7 +178,7 @@ class New(unittest.TestCase):
     def test_a_rig_alone_gets_a_skin(self):
         made = self.make(SOURCE / "data/motions/walk.bvh")
         self.assertIn("100 %", made["bones"])
-        sinew("check", self.scene, check=0)
+        self.check()
 
     def test_a_rig_whose_bones_lie_apart_gets_one_skin(self):
         self.make(self.write("gap.bvh", GAP))
@@ -198,7 +204,7 @@ class New(unittest.TestCase):
         self.scene = self.folder / "sub/my scene.yaml"
         self.scene.parent.mkdir()
         self.make(mesh)
-        sinew("check", self.scene, check=0)
+        self.check()
 
     def test_a_sheet_becomes_a_layer(self):
         self.make(self.write("sheet.obj", SHEET))
@@ -212,7 +218,7 @@ class New(unittest.TestCase):
         self.make(self.write("dressed.obj", "\n".join(line for line in lines if line[0] == "v") + "\n" + skirt
                              + "\n".join(line for line in lines if line[0] == "f") + "\n"))
         self.assertIn("along 1 open shell of", self.scene.read_text())
-        sinew("check", self.scene, check=0)
+        self.check()
 
     def test_a_run_takes_the_work_that_drawing_does(self):
         self.make(SOURCE / "data/motions/fox.glb")
@@ -233,7 +239,7 @@ class New(unittest.TestCase):
         text = self.scene.read_text()
         for line in ("method: file", "clip: walk", "also holds: 'wag'"):
             self.assertIn(line, text)
-        sinew("check", self.scene, check=0)
+        self.check()
 
     def test_a_rig_in_centimeters_becomes_as_large_as_in_meters(self):
         small, large = SOURCE / "data/motions/fox.glb", self.folder / "large.glb"
@@ -242,7 +248,7 @@ class New(unittest.TestCase):
         for glb, word in ((small, "glTF is in meters"), (large, "centimeters")):
             self.assertIn(word, self.make(glb, "--force")["unit"])
             radii.append(float(re.search(r"radius: (\S+)", self.scene.read_text()).group(1)))
-            said = sinew("check", self.scene, check=0).stderr
+            said = self.check().stderr
             for word in ("unit", "follows", "beside", "times as large"):
                 self.assertNotIn(word, said)
         self.assertAlmostEqual(radii[0], radii[1], delta=1e-4)
@@ -261,7 +267,7 @@ class New(unittest.TestCase):
         late.write_bytes(glb)
         self.make(late)
         self.assertRegex(self.scene.read_text(), r"start: 8\n")
-        sinew("check", self.scene, check=0)
+        self.check()
 
     def test_pieces_within_each_other_fill_as_one_body(self):
         bar = self.write("bar.obj", BAR)
@@ -276,7 +282,7 @@ class New(unittest.TestCase):
     def test_a_rig_of_its_own_axes_lies_in_the_mesh(self):
         made = self.make(SOURCE / "data/meshes/creature.ply", SOURCE / "data/motions/walk.bvh")
         self.assertIn("100 %", made["bones"])
-        sinew("check", self.scene, check=0)
+        self.check()
 
     def test_the_same_scene_on_any_threads(self):
         texts = set()
