@@ -134,18 +134,18 @@ class New(unittest.TestCase):
         done = sinew("new", *words, "-o", self.scene, "--json", check=0)
         return json.loads(done.stdout)
 
-    def coarsely(self):
+    def coarsely(self, times):
         radius = float(re.search(r"radius: (\S+)", self.scene.read_text()).group(1))
-        return "--set", f"body.radius={COARSER * radius}"
+        return "--set", f"body.radius={times * radius}"
 
-    def check(self):
+    def check(self, times=COARSER):
         """What check says of the scene, coarsely."""
-        return sinew("check", self.scene, *self.coarsely(), check=0)
+        return sinew("check", self.scene, *self.coarsely(times), check=0)
 
-    def runs(self, *sets):
+    def runs(self, *sets, times=COARSER):
         """Filled, moved and measured, without pictures, coarsely; the metrics of a body that is not torn."""
         out = self.folder / "out"
-        sinew("simulate", self.scene, "-o", out, "--quiet", "--force", *self.coarsely(), *sets, check=0, timeout=200)
+        sinew("simulate", self.scene, "-o", out, "--quiet", "--force", *self.coarsely(times), *sets, check=0, timeout=200)
         limits = ["--fail-on", "inverted > 0.01", "--fail-on", "volume_error > 0.05"]
         sinew("measure", out, "--quiet", *limits, check=0, timeout=200)
         return json.loads((out / "run.json").read_text())
@@ -189,15 +189,15 @@ class New(unittest.TestCase):
         made = self.make(self.write("cup.obj", cup(4)))
         self.assertIn("hollow", made["bones"])
         self.assertIn("method: nearest", self.scene.read_text())
-        said = sinew("check", self.scene, check=0).stderr
+        said = self.check(1.6).stderr
         for word in ("reached from no bone", "one or two layers"):
             self.assertNotIn(word, said)
-        self.runs("--set", "solver.duration=0.3")
+        self.runs("--set", "solver.duration=0.3", times=1.6)
 
     def test_a_plate_is_more_than_two_layers_thick(self):
         plate = "".join(f"v {x} {y} {z}\n" for z in (0, 0.008) for y in (0, 0.5) for x in (0, 0.5))
         self.make(self.write("plate.obj", plate + BAR[BAR.index("f "):]))
-        self.assertNotIn("one or two layers", sinew("check", self.scene, check=0).stderr)
+        self.assertNotIn("one or two layers", self.check(1.6).stderr)
 
     def test_names_with_spaces_and_other_folders(self):
         mesh = self.write("a part: #1.obj", BAR)

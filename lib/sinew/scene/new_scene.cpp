@@ -104,13 +104,12 @@ Surface read_guessing(NewChoices& choices) {
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
-  if (ambiguous_fraction(surface) > max_ambiguous || !(volume_inside(surface) > 0))
-    return layer_along(surface, choices);
   const std::vector<bool> open = open_shells(surface);
   const auto shells = std::count(open.begin(), open.end(), true);
-  if (shells == 0) return surface;
-  return shells == surface.components ? layer_along(surface, choices)
-                                      : layered_shells(surface, open, choices);
+  if (shells > 0 && shells < surface.components) surface = layered_shells(surface, open, choices);
+  const bool no_inside =
+      ambiguous_fraction(surface) > max_ambiguous || !(volume_inside(surface) > 0);
+  return no_inside || shells == surface.components ? layer_along(surface, choices) : surface;
 }
 
 /// The fraction of the limbs' length that lies in the body.
