@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
+#include <sinew/mesh/clean.h>
+#include <sinew/mesh/winding.h>
 #include <sinew/repair/capsules.h>
 #include <sinew/rig/figure/figure.h>
 #include <sinew/rig/rest_at.h>
@@ -18,6 +20,7 @@ constexpr double longest_rig_in_m = 20;                      // of a rig that is
 constexpr double shortest_human = 1.5, tallest_human = 1.9;  // m
 constexpr double clearly_up = 1.3;  // times as far along one axis as along y
 constexpr double side = 0.014;      // of the skin's faces, of the height
+constexpr double min_inside = 0.9;  // of the bones, in the skin of a figure
 constexpr int poses_for_up = 60;
 
 struct CaptureUnit {
@@ -97,6 +100,18 @@ Triangles skin_of(const std::vector<FigurePart>& parts, double height) {
   return skin_around(capsules, side * height);
 }
 
+/// The fraction of the middles of bones that lie in a skin.
+double fraction_inside(const Skeleton& skeleton, const Triangles& skin) {
+  PolygonSoup soup{skin.points, {}};
+  for (const auto& face : skin.faces) soup.polygons.emplace_back(face.begin(), face.end());
+  const Winding winding = winding_of(clean(soup));
+  const auto inside =
+      std::count_if(skeleton.bones.begin(), skeleton.bones.end(), [&](const Bone& bone) {
+        return winding.around((bone.head() + bone.tail()) / 2).value_or(0) > 0;
+      });
+  return static_cast<double>(inside) / static_cast<double>(skeleton.size());
+}
+
 }  // namespace
 
 RigBody body_of_rig(const std::string& path) {
@@ -120,6 +135,11 @@ RigBody body_of_rig(const std::string& path) {
   const Skeleton there = placed(std::move(rig.skeleton), placement_of(body.skeleton));
   anatomy = anatomy_of(there);
   body.skin = skin_of(figure_of(there, anatomy), anatomy.height);
+  if (anatomy.is_figure() && fraction_inside(there, body.skin) < min_inside) {
+    Anatomy none;  // an animal, or what else has two pairs of limbs: capsules along all bones
+    none.height = anatomy.height;
+    body.skin = skin_of(figure_of(there, none), none.height);
+  }
   return body;
 }
 

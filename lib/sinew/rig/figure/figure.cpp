@@ -14,9 +14,8 @@ namespace {
 constexpr std::array<double, 3> leg_radii = {0.045, 0.032, 0.022}, arm_radii = {0.03, 0.024, 0.019};
 constexpr double neck = 0.032, skull = 0.06, hips_deep = 0.058, waist_deep = 0.052,
                  chest_deep = 0.06, finger = 0.007;
-constexpr double waist = 0.85;      // of the width between hips and shoulders
-constexpr double room_kept = 0.8;   // of the distance of two lines, for both radii
-constexpr double least_kept = 0.3;  // of a radius: where lines cross, parts become one
+constexpr double waist = 0.85;     // of the width between hips and shoulders
+constexpr double room_kept = 0.8;  // of the distance of two lines, for both radii
 // Rigs that are no figure: of a bone's length, and of the rig's size.
 constexpr double thick_bone = 0.2, thinnest_bone = 0.012, thickest_bone = 0.05;
 constexpr double no_length = 1e-4;  // of the height: what has a length
@@ -232,8 +231,7 @@ std::vector<double> room_of(const std::vector<FigurePart>& parts, const Neighbor
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       const double both = parts[i].radius + parts[k].radius;
-      const double factor =
-          std::max(least_kept, room_kept * near.distance(parts[i], parts[k]) / both);
+      const double factor = room_kept * near.distance(parts[i], parts[k]) / both;
       factors[i] = std::min(factors[i], factor), factors[k] = std::min(factors[k], factor);
     }
   return factors;
