@@ -142,7 +142,7 @@ namespace {
 /// What a radius costs, and how fine it is.
 struct Trial {
   double radius = 0, particles = 0, work = 0;
-  double across = 0;  ///< the thinnest parts but for a twentieth of the body, in particles
+  double across = 0;  ///< the thinnest parts but for a twentieth of the body, in layers
   std::string thin;   ///< the bone that holds most of what is too thin
 
   /// The radius for so much work and so many particles: steps become as short as particles small.
@@ -151,10 +151,14 @@ struct Trial {
            std::max(std::pow(work / (foreseen * other_work), 0.25), std::cbrt(particles / count));
   }
 
+  /// Layers are whole: what is n of them thick has room for n - 0.5 at least.
+  double sure_across() const { return across < min_across ? across - 0.5 : across; }
+
   /// The same with another radius.
   Trial with(double other) const {
     const double finer = radius / other;
-    return {other, particles * std::pow(finer, 3), work * std::pow(finer, 4), across * finer, thin};
+    return {other, particles * std::pow(finer, 3), work * std::pow(finer, 4),
+            other < radius ? sure_across() * finer : across, thin};
   }
 };
 
@@ -183,7 +187,7 @@ Trial measured(const Prepared& prepared) {
 /// The radius that the budget allows, by a trial with another one.
 double radius_by(const Trial& trial, double largest) {
   const double usual = trial.for_at_most(usual_work, usual_particles);
-  const double fine = trial.radius * trial.across / min_across;
+  const double fine = trial.radius * trial.sure_across() / min_across;
   const double least = trial.for_at_most(largest_work, max_particles);
   return three_figures(std::min(largest, std::max(least, std::min(usual, fine))));
 }
@@ -191,7 +195,7 @@ double radius_by(const Trial& trial, double largest) {
 std::string size_text(const Trial& trial) {
   std::string text = "About " + number_text(three_figures(trial.particles)) + " particles, " +
                      three_digits(trial.work) + " particle-steps; ";
-  if (trial.across >= min_across)
+  if (trial.across >= 0.995 * min_across)
     return text + "at least 4 across the limbs that hold 95 % of the volume";
   return text + "only " + three_digits(trial.across) + " across thin limbs, most of them along " +
          shown(trial.thin);
