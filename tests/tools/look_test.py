@@ -267,6 +267,15 @@ class ViewPreset(unittest.TestCase):
         self.assertEqual(size_of(picture), (1280, 720))
         self.assert_one_line(sinew("check", scene, *SMALL, "--picture", self.pictures / "scene.vtu"), 2, ".png")
 
+    def test_check_draws_where_flesh_meets(self):
+        text = (SOURCE / "configs/box_bend.yaml").read_text().replace("../", f"{SOURCE}/")
+        scene, picture = self.pictures / "folded.yaml", self.pictures / "folded.png"
+        scene.write_text(text.replace("euler: [0, 90, 0]", "euler: [0, 178, 0]"))
+        done = sinew("check", scene, "--set", "body.radius=0.025", "--picture", picture)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("flesh_meets: lower and upper", done.stdout)
+        self.assertEqual(size_of(self.pictures / "folded_meets.png"), (1280, 720))
+
     def test_check_needs_a_display_for_the_picture_only(self):
         scene, bare = SOURCE / "configs/box_bend.yaml", without("DISPLAY", PATH=str(self.pictures / "missing"))
         self.assertEqual(sinew("check", scene, *SMALL, env=bare).returncode, 0)

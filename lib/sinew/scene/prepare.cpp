@@ -341,8 +341,12 @@ Simulation start(Prepared&& prepared) {
 }
 
 std::vector<Intrusion> intrusions_of(const Prepared& prepared) {
+  constexpr double max_places = 5e7;  // of particles at moments, some seconds: of more, some frames
+  const double places =
+      static_cast<double>(prepared.body.rest.size()) * (prepared.frames.count + 1.0);
+  const int every = 1 + static_cast<int>(places / max_places);
   std::vector<double> times;
-  for (int frame = 0; frame <= prepared.frames.count; ++frame)
+  for (int frame = 0; frame <= prepared.frames.count; frame += every)
     times.push_back(prepared.frames.at(frame));
   return intrusions(prepared.body, prepared.motion, times);
 }

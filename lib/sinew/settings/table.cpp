@@ -247,10 +247,9 @@ std::vector<Field<Settings>> make_motion_section() {
                not_negative),
       choice<S>(
           "motion", "begin", SINEW_AT(S, motion.begin), {"rest", "pose", "auto"},
-          "state of the body at the start; rest: at rest; pose: skinned into the clip's first "
-          "pose and relaxed; auto: so where a joint turns by over 90 degrees, the clip jumps there "
-          "in "
-          "a frame, or the way from rest leads through the body"),
+          "state of the body at the start; rest: at rest; pose: skinned into the clip's first pose "
+          "and relaxed; auto: so where a joint turns by over 90 degrees, the clip jumps there in a "
+          "frame, or the way from rest leads through the body"),
   };
 }
 
