@@ -45,8 +45,8 @@ struct NewScene {
 };
 
 /// A mesh whose triangles are too large to bend with the body is replaced by the same one in
-/// smaller triangles. Reads and measures the files, and fills the mesh a few times. Throws bad input, with
-/// the file, for what cannot be read or filled, and for a rig without a bone.
+/// smaller triangles. Reads and measures the files, and fills the mesh a few times. Throws bad
+/// input, with the file, for what cannot be read or filled, and for a rig without a bone.
 NewScene new_scene(const NewSceneFiles& files);
 
 // What files of meshes do not say: the unit of their lengths, and where up is.

@@ -99,8 +99,8 @@ Simulation start(const Prepared& prepared);
 /// The same; takes body, motion, plan and particles out of `prepared`, and copies none of them.
 Simulation start(Prepared&& prepared);
 
-/// Finds flesh that the motion drives into other flesh, at the moments of frames: of all of them, or
-/// of every second, third ... where frames and particles are many.
+/// Finds flesh that the motion drives into other flesh, at the moments of frames: of all of them,
+/// or of every second, third ... where frames and particles are many.
 std::vector<Intrusion> intrusions_of(const Prepared& prepared);
 
 /// The bone with the largest weight for each particle, in the written order.
