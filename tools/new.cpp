@@ -9,7 +9,7 @@
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/solids.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/new_scene.h>
+#include <sinew/scene/new/new_scene.h>
 #include <sinew/scene/scene_files.h>
 #include "command/command.h"
 #include "command/results.h"

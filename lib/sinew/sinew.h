@@ -32,7 +32,7 @@
 #include <sinew/run/measure_run.h>
 #include <sinew/run/particle_meter.h>
 #include <sinew/run/simulate.h>
-#include <sinew/scene/check.h>
+#include <sinew/scene/check/needs.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/settings/read_scene.h>
 #include <sinew/settings/write_scene.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is doubtful in a scene is said before it runs.
-#include <sinew/scene/check.h>
-#include <sinew/scene/warnings.h>
+#include <sinew/scene/check/needs.h>
+#include <sinew/scene/check/warnings.h>
 
 #include <gtest/gtest.h>
 #include <sinew/settings/read_scene.h>

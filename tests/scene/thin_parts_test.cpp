@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
-#include <sinew/scene/new_scene.h>
+#include <sinew/scene/new/new_scene.h>
 #include <sinew/world/world.h>
 #include "support/world.h"
 

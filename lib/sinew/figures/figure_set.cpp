@@ -13,7 +13,7 @@
 #include <sinew/render/movie.h>
 #include <sinew/run/run_record.h>
 #include <sinew/run/world_shown.h>
-#include <sinew/scene/check.h>
+#include <sinew/scene/check/needs.h>
 
 namespace sinew {
 namespace {

@@ -17,10 +17,10 @@
 #include <sinew/run/frame_writer.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/check.h>
+#include <sinew/scene/check/needs.h>
+#include <sinew/scene/check/warnings.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
-#include <sinew/scene/warnings.h>
 #include <sinew/settings/write_scene.h>
 #include <sinew/stepping/frame_guard.h>
 

@@ -8,7 +8,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/run/run_record.h>
-#include <sinew/scene/warnings.h>
+#include <sinew/scene/check/warnings.h>
 #include <sinew/settings/table.h>
 
 namespace sinew {

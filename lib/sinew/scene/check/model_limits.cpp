@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/model_limits.h>
+#include <sinew/scene/check/model_limits.h>
 
 #include <algorithm>
 #include <cmath>

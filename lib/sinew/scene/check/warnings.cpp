@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/warnings.h>
+#include <sinew/scene/check/warnings.h>
 
 #include <algorithm>
 #include <cmath>

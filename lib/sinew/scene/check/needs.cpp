@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/check.h>
+#include <sinew/scene/check/needs.h>
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <sinew/rig/limbs.h>
-#include <sinew/scene/new_scene.h>
+#include <sinew/scene/new/new_scene.h>
 #include <sinew/scene/prepare.h>
 
 namespace sinew {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/rest_trial.h>
+#include <sinew/scene/check/rest_trial.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/detail/new_size.h>
+#include <sinew/scene/new/detail/size.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/new_scene.h>
+#include <sinew/scene/new/new_scene.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include <sinew/repair/curve_skeleton.h>
 #include <sinew/rig/limbs.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/detail/new_size.h>
+#include <sinew/scene/new/detail/size.h>
 
 namespace sinew {
 namespace {
