@@ -69,16 +69,34 @@ def cup(wall):
     return "".join("v %g %g %g\n" % p for p in outer + inner) + "".join("f %d %d %d %d\n" % f for f in walls + rim)
 
 
-def scaled(glb, factor):
-    """With all of it larger by its root, as exporters write other units."""
+def edited(glb, edit):
+    """The file after `edit` changed its JSON."""
     length = struct.unpack_from("<I", glb, 12)[0]
     document = json.loads(glb[20:20 + length])
-    for node in document["scenes"][0]["nodes"]:
-        document["nodes"][node]["scale"] = 3 * [factor]
+    edit(document)
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     rest = glb[20 + length:]
     return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
+
+
+def scaled(glb, factor):
+    """The file, larger by its root, as exporters write other units."""
+    def scale(document):
+        for node in document["scenes"][0]["nodes"]:
+            document["nodes"][node]["scale"] = 3 * [factor]
+    return edited(glb, scale)
+
+
+def first_key_of(document, animation):
+    """An animation named 'pose' of the first keys of another."""
+    def one(accessor):
+        first = {**document["accessors"][accessor], "count": 1}
+        document["accessors"].append(first | {"max": first["min"]} if "min" in first else first)
+        return len(document["accessors"]) - 1
+    samplers = [{**sampler, "input": one(sampler["input"]), "output": one(sampler["output"])}
+                for sampler in animation["samplers"]]
+    return {**animation, "name": "pose", "samplers": samplers}
 
 
 def human(unit):
@@ -241,6 +259,24 @@ class New(unittest.TestCase):
         for line in ("method: file", "clip: walk", "also holds: 'wag'"):
             self.assertIn(line, text)
         self.check()
+
+    def test_a_clip_that_is_a_pose_is_passed_over(self):
+        def pose_first(document):
+            document["animations"].insert(0, first_key_of(document, document["animations"][0]))
+
+        def pose_alone(document):
+            document["animations"] = [first_key_of(document, document["animations"][0])]
+
+        fox, glb = (SOURCE / "data/motions/fox.glb").read_bytes(), self.folder / "posed.glb"
+        glb.write_bytes(edited(fox, pose_first))
+        self.make(glb)
+        for line in ("clip: walk", "also holds: 'pose', 'wag'"):
+            self.assertIn(line, self.scene.read_text())
+        glb.write_bytes(edited(fox, pose_alone))
+        self.make(glb, "--force")
+        self.assertIn("tracks:", self.scene.read_text())
+        self.assertNotIn("clip:", self.scene.read_text())
+        self.runs()
 
     def test_a_rig_in_centimeters_becomes_as_large_as_in_meters(self):
         small, large = SOURCE / "data/motions/fox.glb", self.folder / "large.glb"

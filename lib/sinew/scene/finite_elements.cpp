@@ -219,9 +219,9 @@ struct NodeLoad {
 };
 
 /// Forces summed by node.
-class Forces {
+class ElementForces {
  public:
-  explicit Forces(const VolumeMesh& mesh) : mesh_(mesh) {}
+  explicit ElementForces(const VolumeMesh& mesh) : mesh_(mesh) {}
 
   void add_volume(std::uint32_t element, const Vec3& density) {
     const VolumeElement& one = mesh_.elements[element];
@@ -251,14 +251,14 @@ class Forces {
 
 std::vector<NodeForce> by_volume(const VolumeMesh& mesh, const std::vector<std::uint32_t>& on,
                                  const Vec3& density) {
-  Forces forces(mesh);
+  ElementForces forces(mesh);
   for (const std::uint32_t element : on) forces.add_volume(element, density);
   return forces.all();
 }
 
 std::vector<NodeForce> by_area(const VolumeMesh& mesh, const std::vector<ElementFace>& on,
                                const Vec3& traction) {
-  Forces forces(mesh);
+  ElementForces forces(mesh);
   for (const ElementFace& face : on) forces.add_area(face, traction);
   return forces.all();
 }

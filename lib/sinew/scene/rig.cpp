@@ -45,7 +45,7 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
     track.bone = static_cast<int>(found - to.bones.begin());
     tracks.push_back(std::move(track));
   }
-  if (tracks.empty()) {
+  if (tracks.empty() && !motion.tracks.empty()) {
     std::string cure("name a bone of the skeleton as the clip does: ");
     cure += from.bones.front().name;
     if (from.size() > 1) (cure += ", ") += from.bones[1].name;

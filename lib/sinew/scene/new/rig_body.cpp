@@ -18,9 +18,9 @@ namespace {
 
 constexpr double longest_rig_in_m = 20;                      // of a rig that is no figure
 constexpr double shortest_human = 1.5, tallest_human = 1.9;  // m
-constexpr double clearly_up = 1.3;  // times as far along one axis as along y
-constexpr double side = 0.014;      // of the skin's faces, of the height
-constexpr double min_inside = 0.9;  // of the bones, in the skin of a figure
+constexpr double clearly_up = 1.3;        // times as far along one axis as along y
+constexpr double side = 0.014;            // of the skin's faces, of the height
+constexpr double min_bones_inside = 0.9;  // of the bones, in the skin of a figure
 constexpr int poses_for_up = 60;
 
 struct CaptureUnit {
@@ -135,7 +135,7 @@ RigBody body_of_rig(const std::string& path) {
   const Skeleton there = placed(std::move(rig.skeleton), placement_of(body.skeleton));
   anatomy = anatomy_of(there);
   body.skin = skin_of(figure_of(there, anatomy), anatomy.height);
-  if (anatomy.is_figure() && fraction_inside(there, body.skin) < min_inside) {
+  if (anatomy.is_figure() && fraction_inside(there, body.skin) < min_bones_inside) {
     Anatomy none;  // an animal, or what else has two pairs of limbs: capsules along all bones
     none.height = anatomy.height;
     body.skin = skin_of(figure_of(there, none), none.height);

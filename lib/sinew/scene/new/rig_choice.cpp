@@ -22,10 +22,12 @@
 namespace sinew {
 namespace {
 
-constexpr double min_fraction = 0.5;  // of the bones inside the mesh, for them to belong together
-constexpr double longest_clip = 3;    // s of the scene, for a first picture
-constexpr double min_wait = 0.1;      // s of a clip before its first key, to be left out
-constexpr double well_inside = 0.8;   // a fraction that no fit improves
+constexpr double min_fraction = 0.5;   // of the bones inside the mesh, for them to belong together
+constexpr double longest_clip = 3;     // s of the scene, for a first picture
+constexpr double min_wait = 0.1;       // s of a clip before its first key, to be left out
+constexpr double min_turn = pi / 180;  // rad, of a bone that a clip turns
+constexpr double min_travel = 1e-3;    // of the skeleton's size, of a bone that a clip moves
+constexpr double well_inside = 0.8;    // a fraction that no fit improves
 constexpr int places_per_bone = 5;
 
 struct Axes {
@@ -106,13 +108,45 @@ double first_key(const Motion& motion) {
   return std::isfinite(first) ? first : 0;
 }
 
-void choose_clip(const Rig& rig, NewChoices& choices) {
-  if (rig.clips.empty()) return;
-  const Clip& clip = rig.clips.front();
+/// Whether a value differs from key to key, rather than being one pose.
+template <typename Curve, typename Distance>
+bool changes(const Curve& curve, double threshold, Distance&& distance) {
+  return std::any_of(curve.values.begin(), curve.values.end(), [&](const auto& value) {
+    return distance(curve.values.front(), value) > threshold;
+  });
+}
+
+bool turns(const Clip& clip) {
+  return std::any_of(clip.motion.tracks.begin(), clip.motion.tracks.end(), [](const Track& track) {
+    return changes(track.rotation, min_turn,
+                   [](const Quat& a, const Quat& b) { return a.angularDistance(b); }) ||
+           changes(track.twist, min_turn, [](double a, double b) { return std::abs(a - b); });
+  });
+}
+
+bool travels(const Clip& clip, double threshold) {
+  return std::any_of(clip.motion.tracks.begin(), clip.motion.tracks.end(), [&](const Track& track) {
+    return changes(track.translation, threshold,
+                   [](const Vec3& a, const Vec3& b) { return (a - b).norm(); });
+  });
+}
+
+/// The first clip that turns bones, or else moves them; none where all clips are still poses.
+const Clip* moving_clip(const Rig& rig) {
+  const auto first = [&](const auto& moves) {
+    const auto found = std::find_if(rig.clips.begin(), rig.clips.end(), moves);
+    return found == rig.clips.end() ? nullptr : &*found;
+  };
+  if (const Clip* clip = first(turns)) return clip;
+  const double threshold = min_travel * bounds(rig.skeleton).diagonal().norm();
+  return first([&](const Clip& clip) { return travels(clip, threshold); });
+}
+
+void choose_clip(const Rig& rig, const Clip& clip, NewChoices& choices) {
   MotionOptions& motion = choices.settings.motion;
   if (rig.clips.size() > 1) motion.clip = clip.name;
-  for (std::size_t i = 1; i < rig.clips.size(); ++i)
-    choices.clips.push_back(shown(rig.clips[i].name));
+  for (const Clip& other : rig.clips)
+    if (&other != &clip) choices.clips.push_back(shown(other.name));
   motion.begin = Begin::automatic;
   choices.begins_posed = begins_far_from_rest(rig.skeleton, clip.motion);
   const double preroll = choices.begins_posed ? 0 : preroll_for(rig.skeleton, clip.motion);
@@ -147,8 +181,10 @@ void bend_ends(const Skeleton& skeleton, NewChoices& choices) {
 }
 
 void choose_motion(const Rig& rig, NewChoices& choices) {
-  choose_clip(rig, choices);
-  if (rig.clips.empty()) bend_ends(rig.skeleton, choices);
+  if (const Clip* clip = moving_clip(rig))
+    choose_clip(rig, *clip, choices);
+  else
+    bend_ends(rig.skeleton, choices);
 }
 
 }  // namespace
