@@ -206,6 +206,34 @@ TEST(RestAt, MakesAFigureOfARigThatRestsInOneLine) {
   expect_apart(posed);
 }
 
+/// A hand of three fingers, whose middle joints the clip holds at an angle to their rest.
+Rig hand(double angle) {
+  std::vector<Joint> joints = {{"wrist", no_bone, Vec3::Zero(), {}}};
+  Rig rig;
+  rig.clips.emplace_back();
+  for (const double side : {-1.0, 0.0, 1.0}) {
+    const int knuckle = static_cast<int>(joints.size());
+    const Vec3 first(1, 0.3 * side, 0);
+    joints.push_back({"knuckle" + std::to_string(knuckle), 0, first, {}});
+    joints.push_back({"middle" + std::to_string(knuckle), knuckle, first + Vec3(0.4, 0, 0), {}});
+    const double back = 0.4 - 0.3;  // folded back along the finger
+    joints.push_back({"end" + std::to_string(knuckle), knuckle + 1, first + Vec3(back, 0, 0), {}});
+    joints.back().end = first + Vec3(back - 0.2, 0, 0);
+    const Quat turn(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+    rig.clips[0].motion.tracks.push_back(constant(knuckle + 1, turn));
+    rig.clips[0].motion.tracks.back().rotation.values.front() = turn;
+  }
+  rig.skeleton = skeleton_of(joints);
+  return rig;
+}
+
+TEST(RestAt, UnfoldsWhatIsNoFigureOnlyWhereItsRestIsNeverNear) {
+  const Rig folded = hand(pi), bent = hand(pi / 2);
+  ASSERT_FALSE(anatomy_of(folded.skeleton).is_figure());
+  EXPECT_TRUE(best_pose(folded, anatomy_of(folded.skeleton), Vec3::UnitZ()));
+  EXPECT_FALSE(best_pose(bent, anatomy_of(bent.skeleton), Vec3::UnitZ()));
+}
+
 TEST(RestAt, LeavesARestPoseThatServes) {
   Rig rig;
   rig.skeleton = skeleton_of(human());

@@ -11,6 +11,7 @@ namespace {
 constexpr double times_better = 1.4;  // times as open, for the file's rest pose to be left
 constexpr double nearly_best = 0.95;  // of the best
 constexpr int poses_tried = 120;
+constexpr double far_turn = 120 * pi / 180;  // rad, of a joint from rest, as none of a body turns
 
 Vec3 tail_of(const Skeleton& skeleton, int bone) { return skeleton.bones[bone].tail(); }
 
@@ -53,6 +54,23 @@ bool carrier_lies_in(const Skeleton& skeleton, const Anatomy& anatomy) {
              0.02 * anatomy.height;
 }
 
+/// Whether some joint is never near its rest, as where bones were measured otherwise than they
+/// move.
+bool is_always_far_from_rest(const Skeleton& skeleton, Motion clip,
+                             const std::vector<double>& times) {
+  clip.preroll = 0;
+  std::vector<double> least(skeleton.size(), pi);
+  for (const double time : times) {
+    clip.start = time;
+    const std::vector<LocalMotion> locals = local_motions(skeleton, clip, 0);
+    for (std::size_t b = 0; b < locals.size(); ++b)
+      least[b] = std::min(least[b], locals[b].rotation.angularDistance(Quat::Identity()));
+  }
+  for (std::size_t b = 0; b < least.size(); ++b)
+    if (skeleton.bones[b].parent != no_bone && least[b] > far_turn) return true;
+  return false;
+}
+
 }  // namespace
 
 double openness(const Skeleton& posed, const Anatomy& anatomy, const Vec3& up) {
@@ -61,18 +79,22 @@ double openness(const Skeleton& posed, const Anatomy& anatomy, const Vec3& up) {
 }
 
 std::optional<double> best_pose(const Rig& rig, const Anatomy& anatomy, const Vec3& up) {
-  if (!anatomy.is_figure() || rig.clips.empty()) return std::nullopt;
+  if (rig.clips.empty()) return std::nullopt;
   const Motion& clip = rig.clips.front().motion;
   const std::vector<double> times = times_in(clip, poses_tried);
+  if (!anatomy.is_figure() && !is_always_far_from_rest(rig.skeleton, clip, times))
+    return std::nullopt;
+  const auto how_open = [&](const Skeleton& posed) {
+    return anatomy.is_figure() ? openness(posed, anatomy, up) : room_in(posed, anatomy);
+  };
   Rig one;  // without its clips, which need not turn with it
   one.skeleton = rig.skeleton;
   std::vector<double> open;
   open.reserve(times.size());
-  for (const double time : times)
-    open.push_back(openness(with_rest_at(one, clip, time).skeleton, anatomy, up));
+  for (const double time : times) open.push_back(how_open(with_rest_at(one, clip, time).skeleton));
   const double best = *std::max_element(open.begin(), open.end());
-  const double at_rest = openness(rig.skeleton, anatomy, up);
-  if (best <= 0 || (best < times_better * at_rest && !carrier_lies_in(rig.skeleton, anatomy)))
+  const bool better = best >= times_better * how_open(rig.skeleton);
+  if (best <= 0 || (anatomy.is_figure() && !better && !carrier_lies_in(rig.skeleton, anatomy)))
     return std::nullopt;
   const auto first = std::find_if(open.begin(), open.end(),
                                   [&](double value) { return value >= nearly_best * best; });

@@ -61,7 +61,8 @@ double openness(const Skeleton& posed, const Anatomy& anatomy, const Vec3& up);
 
 /// The time of the pose, s of the clip, in which a figure is to be made; none: the file's own rest
 /// pose. That one is left where another is over 1.4 times as open, or where a bone that only
-/// carries the figure lies in it. Of the poses, those open to a twentieth less than the best
+/// carries the figure lies in it; of a rig that is no figure where the clip never brings some joint
+/// within 120 degrees of its rest. Of the poses, those open to a twentieth less than the best
 /// count, and of these the first.
 std::optional<double> best_pose(const Rig& rig, const Anatomy& anatomy, const Vec3& up);
 
