@@ -111,6 +111,38 @@ TEST(Anatomy, IsTheSameInAnyPose) {
   EXPECT_NEAR(line.height, upright.height, 0.05 * upright.height);
 }
 
+/// A figure whose collar bones, so long each, leave the chest at one place.
+std::vector<Joint> with_collars(const std::array<double, 2>& lengths) {
+  const std::vector<Joint> old = human();
+  std::vector<Joint> joints(old.begin(), old.begin() + 5);
+  for (const int side : {0, 1}) {
+    const double sign = side == 0 ? 1 : -1;
+    Vec3 place = old[2].place + Vec3(0, 0, 0.2);
+    joints.push_back({"collar", 2, place, {}});
+    for (const auto& [name, link] :
+         {std::pair{"arm", lengths[side]}, {"forearm", 0.28}, {"hand", 0.25}}) {
+      place += sign * link * Vec3::UnitY();
+      joints.push_back({name, static_cast<int>(joints.size()) - 1, place, {}});
+    }
+    joints.back().end = place + sign * 0.17 * Vec3::UnitY();
+  }
+  for (std::size_t j = 11; j < old.size(); ++j) {
+    joints.push_back(old[j]);
+    if (joints.back().parent >= 11) joints.back().parent += 2;
+  }
+  return joints;
+}
+
+TEST(Anatomy, CutsBothArmsAtTheSameJoint) {
+  for (const double collar : {0.12, 0.14, 0.155}) {  // about half as long as an upper arm
+    const Skeleton skeleton = skeleton_of(with_collars({0.97 * collar, 1.03 * collar}));
+    const Anatomy anatomy = anatomy_of(skeleton);
+    ASSERT_TRUE(anatomy.is_figure());
+    for (const int joint : anatomy.arms().joint)
+      EXPECT_EQ(skeleton.bones[joint].name.substr(0, 3), "arm");
+  }
+}
+
 TEST(Anatomy, OfAChainIsNoFigure) {
   std::vector<Joint> rope;
   for (int j = 0; j < 12; ++j) rope.push_back({std::to_string(j), j - 1, Vec3(0.1 * j, 0, 0), {}});
@@ -154,6 +186,32 @@ TEST(Figure, HasLimbsThatReachNoOthers) {
     if (part.bone == 12) thickest = std::max(thickest, part.radius);
   EXPECT_GT(thickest, 0);
   EXPECT_LT(2 * thickest, 0.04);
+}
+
+TEST(Figure, HasArmsThatHangBesideTheTrunk) {
+  std::vector<Joint> hanging = human();
+  for (const std::size_t arm : {5, 8}) {
+    const Vec3 shoulder = hanging[arm].place;
+    hanging[arm + 1].place = shoulder - Vec3(0, 0, 0.28);
+    hanging[arm + 2].place = shoulder - Vec3(0, 0, 0.53);
+    hanging[arm + 2].end = shoulder - Vec3(0, 0, 0.7);
+  }
+  const Skeleton skeleton = skeleton_of(hanging);
+  expect_apart(skeleton);
+  double widest = 0;
+  const std::vector<FigurePart> parts = figure_of(skeleton, anatomy_of(skeleton));
+  for (const FigurePart& arm : parts) {
+    if (arm.bone != 5 && arm.bone != 8) continue;
+    if (arm.kind != FigurePart::Kind::limb) continue;
+    const Vec3 middle = (arm.from + arm.to) / 2;
+    const FigurePart lower{arm.bone, no_bone, arm.kind, middle, arm.to, arm.radius};
+    for (const FigurePart& trunk : parts) {
+      if (trunk.kind != FigurePart::Kind::trunk) continue;
+      widest = std::max(widest, trunk.to.y() + trunk.radius);
+      EXPECT_GT(distance_between(lower, trunk) - arm.radius - trunk.radius, 0.01);
+    }
+  }
+  EXPECT_GT(widest, 0.1);  // the hips
 }
 
 TEST(Figure, IsAsWideAsHipsAndShouldersAndAsHighAsItsHead) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double alike = 0.1;          // difference of the lengths of two limbs, of the longer
 constexpr double shortest_pair = 0.2;  // of the skeleton's size: limbs, not fingers
-constexpr double long_link = 0.5;      // of the limb's longest: an upper arm, no collar bone
+constexpr double long_link = 0.6;      // of the limb's longest: an upper arm, no collar bone
 constexpr double above_head = 0.06;    // of the height, above a head joint without an end
 constexpr double below_ankle = 0.04;   // of the height, below the ankle
 
@@ -54,20 +54,27 @@ double size_of(const Tree& tree) {
   return size;
 }
 
-/// The bone on the longest way below `bone` with the first long link.
-int first_long(const Tree& tree, int bone) {
-  double most = 0;
-  for (int b = bone; tree.longest[b] != no_bone; b = tree.longest[b])
-    most = std::max(most, tree.link[tree.longest[b]]);
-  int b = bone;
-  while (tree.longest[b] != no_bone && tree.link[tree.longest[b]] < long_link * most)
-    b = tree.longest[b];
-  return tree.longest[b] == no_bone ? bone : b;
+/// The bones on the longest way from `bone` to an end.
+std::vector<int> longest_way(const Tree& tree, int bone) {
+  std::vector<int> way;
+  for (; bone != no_bone; bone = tree.longest[bone]) way.push_back(bone);
+  return way;
 }
 
-int end_below(const Tree& tree, int bone) {
-  while (tree.longest[bone] != no_bone) bone = tree.longest[bone];
-  return bone;
+/// The bones of two limbs with the first link that is long in both: sides alike are never cut at
+/// different joints.
+std::array<int, 2> first_long(const Tree& tree, const std::array<int, 2>& limbs) {
+  const std::array<std::vector<int>, 2> ways = {longest_way(tree, limbs[0]),
+                                                longest_way(tree, limbs[1])};
+  const auto link = [&](std::size_t k) {
+    return (tree.link[ways[0][k]] + tree.link[ways[1][k]]) / 2;
+  };
+  const std::size_t size = std::min(ways[0].size(), ways[1].size());
+  double most = 0;
+  for (std::size_t k = 1; k < size; ++k) most = std::max(most, link(k));
+  std::size_t k = 1;
+  while (k < size && link(k) < long_link * most) ++k;
+  return k < size ? std::array{ways[0][k - 1], ways[1][k - 1]} : limbs;
 }
 
 /// The two children of a bone that are most alike in length, if any are.
@@ -88,10 +95,9 @@ LimbPair pair_at(const Tree& tree, int fork, double size) {
       found.fork = fork, found.first = two, found.length = {a, b};
     }
   if (found.fork == no_bone) return found;
-  for (std::size_t side = 0; side < 2; ++side) {
-    found.joint[side] = first_long(tree, found.first[side]);
-    found.tip[side] = end_below(tree, found.first[side]);
-  }
+  found.joint = first_long(tree, found.first);
+  for (std::size_t side = 0; side < 2; ++side)
+    found.tip[side] = longest_way(tree, found.first[side]).back();
   return found;
 }
 
@@ -129,9 +135,7 @@ std::vector<int> head_of(const Tree& tree, const Anatomy& anatomy) {
         tree.link[child] + tree.reach[child] > tree.link[first] + tree.reach[first])
       first = child;
   }
-  std::vector<int> head;
-  for (; first != no_bone; first = tree.longest[first]) head.push_back(first);
-  return head;
+  return longest_way(tree, first);
 }
 
 double length_along(const Tree& tree, const std::vector<int>& bones) {

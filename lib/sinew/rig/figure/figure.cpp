@@ -14,8 +14,9 @@ namespace {
 constexpr std::array<double, 3> leg_radii = {0.045, 0.032, 0.022}, arm_radii = {0.03, 0.024, 0.019};
 constexpr double neck = 0.032, skull = 0.06, hips_deep = 0.058, waist_deep = 0.052,
                  chest_deep = 0.06, finger = 0.007;
-constexpr double waist = 0.85;     // of the width between hips and shoulders
-constexpr double room_kept = 0.8;  // of the distance of two lines, for both radii
+constexpr double waist = 0.85;      // of the width between hips and shoulders
+constexpr double beside_arm = 1.3;  // of the radius of the upper arm, from its middle to the trunk
+constexpr double room_kept = 0.8;   // of the distance of two lines, for both radii
 // Rigs that are no figure: of a bone's length, and of the rig's size.
 constexpr double thick_bone = 0.2, thinnest_bone = 0.012, thickest_bone = 0.05;
 constexpr double no_length = 1e-4;  // of the height: what has a length
@@ -28,6 +29,8 @@ Vec3 nearest_on(const FigurePart& part, const Vec3& point) {
   const double s = square > 0 ? std::clamp((point - part.from).dot(along) / square, 0.0, 1.0) : 0;
   return part.from + s * along;
 }
+
+bool is_body(const FigurePart& part) { return part.kind == Kind::trunk || part.kind == Kind::head; }
 
 /// The half of a line that is farther from where two bones meet.
 FigurePart outer_half(FigurePart part) {
@@ -153,7 +156,9 @@ class Builder {
     const Vec3 low = across(anatomy_.legs()), high = across(anatomy_.arms());
     const double hips = low.norm() / 2 + 0.8 * leg_radii[0] * H();
     const double shoulders = std::max(high.norm() / 2 - 0.3 * arm_radii[0] * H(), neck * H());
-    const double width = (1 - (1 - waist) * std::sin(pi * s)) * ((1 - s) * hips + s * shoulders);
+    const double usual_width =
+        (1 - (1 - waist) * std::sin(pi * s)) * ((1 - s) * hips + s * shoulders);
+    const double width = std::min(usual_width, room_beside_arms(at));
     const double usual = s < 0.5 ? hips_deep + 2 * s * (waist_deep - hips_deep)
                                  : waist_deep + (2 * s - 1) * (chest_deep - waist_deep);
     const double deep = std::min(usual * H(), width);
@@ -161,6 +166,17 @@ class Builder {
     if (side.norm() < 0.1) side = low;
     const Vec3 half = (width - deep) * side.normalized();
     add(bone, Kind::trunk, at - half, at + half, deep);
+  }
+
+  /// How far the trunk may reach from a place, so that arms that hang stay apart from it.
+  double room_beside_arms(const Vec3& at) const {
+    double room = std::numeric_limits<double>::infinity();
+    for (const int joint : anatomy_.arms().joint) {
+      const Bone& bone = skeleton_.bones[joint];
+      const FigurePart arm{joint, no_bone, Kind::limb, bone.head(), bone.tail(), 0};
+      room = std::min(room, (nearest_on(outer_half(arm), at) - at).norm());
+    }
+    return std::max(room - beside_arm * arm_radii[0] * H(), neck * H());
   }
 
   /// A shoulder, or what leads to the hip.
@@ -268,12 +284,9 @@ bool Neighborhood::in_line(const FigurePart& a, const FigurePart& b) const {
 }
 
 bool Neighborhood::joins(const FigurePart& a, const FigurePart& b) const {
-  const auto is_body = [](const FigurePart& part) {
-    return part.kind == Kind::trunk || part.kind == Kind::head;
-  };
   const std::vector<Bone>& bones = skeleton_.bones;
   const auto holds = [&](const FigurePart& one, const FigurePart& other) {
-    return (is_body(one) && begins_[other.bone]) || bones[other.bone].parent == one.bone ||
+    return bones[other.bone].parent == one.bone ||
            (other.hand != no_bone && bones[other.hand].parent == one.bone);
   };
   return a.bone == b.bone || (is_body(a) && is_body(b)) || holds(a, b) || holds(b, a) ||
@@ -281,6 +294,9 @@ bool Neighborhood::joins(const FigurePart& a, const FigurePart& b) const {
 }
 
 double Neighborhood::distance(const FigurePart& a, const FigurePart& b) const {
+  const auto begins = [&](const FigurePart& part) { return !is_body(part) && begins_[part.bone]; };
+  if (is_body(a) && begins(b)) return distance_between(a, outer_half(b));
+  if (is_body(b) && begins(a)) return distance_between(outer_half(a), b);
   if (joins(a, b)) return std::numeric_limits<double>::infinity();
   const int parent = skeleton_.bones[a.bone].parent;
   const bool siblings = parent != no_bone && parent == skeleton_.bones[b.bone].parent;

@@ -31,13 +31,13 @@ std::vector<FigurePart> parts_of(const Skeleton& skeleton, const Anatomy& anatom
 std::vector<FigurePart> figure_of(const Skeleton& skeleton, const Anatomy& anatomy);
 
 /// Which parts are neighbors: those of one bone, of parent and child, of one hand or foot and the
-/// bone that holds it, of the trunk with the head and with the beginnings of limbs, and those one
-/// after the other on a line of bones shorter than they are thick.
+/// bone that holds it, of the trunk with the head and with the inner halves of the limbs' first
+/// bones, and those one after the other on a line of bones shorter than they are thick.
 class Neighborhood {
  public:
   Neighborhood(const Skeleton& skeleton, const Anatomy& anatomy);
-  /// The distance of their lines; of bones of one parent that of their outer halves. Infinite for
-  /// neighbors.
+  /// The distance of their lines; of bones of one parent, and of the first bone of a limb from the
+  /// body, that of the outer halves. Infinite for neighbors.
   double distance(const FigurePart& a, const FigurePart& b) const;
 
  private:
