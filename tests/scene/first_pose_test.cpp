@@ -54,6 +54,14 @@ TEST(FirstPose, BodyBeginsSkinnedAndAtRestThere) {
   EXPECT_LT(largest_from(simulation.particles(), positions_of(before)), 0.05 * r);
 }
 
+TEST(FirstPose, RelaxationThereIsReported) {
+  std::vector<std::int64_t> iterations;
+  const auto hear = [&](std::int64_t so_far, double) { iterations.push_back(so_far); };
+  start(test::prepared(bent(60, Begin::pose), bar()), hear);
+  ASSERT_GT(iterations.size(), 1U);
+  for (std::size_t k = 1; k < iterations.size(); ++k) EXPECT_GT(iterations[k], iterations[k - 1]);
+}
+
 TEST(FirstPose, RestIsTheDefaultAndHasTheBitsOfBefore) {
   Settings settings = bent(30, Begin::rest);
   EXPECT_FALSE(test::prepared(settings, bar()).beginning.posed);

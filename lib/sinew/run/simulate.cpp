@@ -105,7 +105,7 @@ class Run {
       Stopwatch watch;
       if (!state) write_beginning(prepared);
       log_.spend("writing", watch.lap());
-      begin(std::move(prepared), state);
+      begin(std::move(prepared), state, watch);
       log_.spend("listing", watch.lap());
       const Exit exit = write_frames();
       log_.end(exit == Exit::done ? "finished" : "stopped", *simulation_);
@@ -127,7 +127,7 @@ class Run {
     write_view_script(folder_.path);
   }
 
-  void begin(Prepared prepared, const std::optional<SimulationState>& state) {
+  void begin(Prepared prepared, const std::optional<SimulationState>& state, Stopwatch& watch) {
     schedule_ = {prepared.frames, prepared.plan, prepared.load_steps.has_value()};
     const StepChoice steps = prepared.steps;
     const Motion motion = prepared.motion;
@@ -139,7 +139,12 @@ class Run {
                       prepared.body.neighbors,
                       std::move(cells)};
     if (state) prepared.beginning = {};  // it is at another moment
-    simulation_.emplace(start(std::move(prepared)));
+    const bool posed = prepared.beginning.posed;
+    simulation_.emplace(start(std::move(prepared), [&](std::int64_t iterations, double residual) {
+      if (options_.progress)
+        options_.progress({0, schedule_.frames.count, 0, 0, 0, iterations, residual});
+    }));
+    if (posed) log_.spend("relaxing", watch.lap());
     prepared = Prepared();  // millions of numbers that nobody needs any more
     if (!schedule_.relaxes && !options_.engine) watch_frames();
     if (state) {

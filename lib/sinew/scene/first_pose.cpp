@@ -24,7 +24,7 @@ constexpr double shortest_step = 0.02;           // s in which nobody turns a bo
 constexpr double far_from_rest = 90;             // degrees, of a bone from rest
 constexpr int moments_of_way = 8;
 constexpr double residual = 1e-3;
-constexpr std::int64_t max_iterations = 3000;
+constexpr std::int64_t max_iterations = 3000, iterations_between_reports = 100;
 
 /// Motion without preroll, whose time 0 is that of the clip's start.
 Motion from_start(Motion motion) {
@@ -159,7 +159,7 @@ Beginning begin_of(const Settings& settings, const Body& body, Motion& motion) {
 }
 
 Particles posed(const Body& body, const Motion& motion, const Particles& particles,
-                const SolverSettings& solver) {
+                const SolverSettings& solver, const RelaxationProgress& progress) {
   Body still = undamped(body);
   Pose pose = pose_at(body.skeleton, motion, 0);
   Particles now = particles;
@@ -178,7 +178,12 @@ Particles posed(const Body& body, const Motion& motion, const Particles& particl
   once.solver = StaticSolver::relaxation;
   simulation.relax(once);
   try {
-    while (simulation.relaxation()->moments() == 0) simulation.step();
+    while (simulation.relaxation()->moments() == 0) {
+      simulation.step();
+      const std::int64_t iterations = simulation.relaxation()->state().iterations;
+      if (progress && iterations > 0 && iterations % iterations_between_reports == 0)
+        progress(iterations, simulation.relaxation()->residual());
+    }
   } catch (const Error& error) {  // not at rest, but nearer to it
     if (error.exit() != Exit::unstable) throw;
   }

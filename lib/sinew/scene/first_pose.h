@@ -2,9 +2,12 @@
 // A body that begins in the first pose of its motion rather than at rest: skinned by dual
 // quaternions, and relaxed on bones that stand still.
 //
-//     if (begins_posed(settings, body, motion)) particles = posed(body, motion, particles, solver);
+//     if (begin_of(settings, body, motion).posed) particles = posed(body, motion, particles,
+//     solver);
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 
 #include <sinew/body/body.h>
@@ -28,9 +31,12 @@ bool begins_far_from_rest(const Skeleton& skeleton, Motion clip);
 /// for a first pose with a preroll, and with what knows the rest state alone.
 Beginning begin_of(const Settings& settings, const Body& body, Motion& motion);
 
+/// Hears how many iterations a relaxation took so far, and how far it is from rest.
+using RelaxationProgress = std::function<void(std::int64_t iterations, double residual)>;
+
 /// The particles (at rest) in the pose at time 0, at rest there as far as that takes not too long,
 /// with the velocities of their bones.
 Particles posed(const Body& body, const Motion& motion, const Particles& particles,
-                const SolverSettings& solver);
+                const SolverSettings& solver, const RelaxationProgress& progress = {});
 
 }  // namespace sinew

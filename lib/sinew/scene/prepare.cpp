@@ -324,10 +324,10 @@ Prepared prepare(Scene scene) {
 
 Simulation start(const Prepared& prepared) { return start(Prepared(prepared)); }
 
-Simulation start(Prepared&& prepared) {
+Simulation start(Prepared&& prepared, const RelaxationProgress& progress) {
   if (prepared.beginning.posed && !prepared.motion.tracks.empty())
-    prepared.filled.particles =
-        posed(prepared.body, prepared.motion, prepared.filled.particles, prepared.settings.solver);
+    prepared.filled.particles = posed(prepared.body, prepared.motion, prepared.filled.particles,
+                                      prepared.settings.solver, progress);
   prepared.body.neighbors.reset();  // stepping has lists of its own
   Simulation simulation(std::move(prepared.body), std::move(prepared.motion),
                         std::move(prepared.filled.particles),

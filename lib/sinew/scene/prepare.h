@@ -97,7 +97,8 @@ Prepared prepare(Scene scene);
 /// relaxed there first: leave out `beginning` for what is restored to another moment.
 Simulation start(const Prepared& prepared);
 /// The same; takes body, motion, plan and particles out of `prepared`, and copies none of them.
-Simulation start(Prepared&& prepared);
+/// `progress` hears of the relaxation, if there is one.
+Simulation start(Prepared&& prepared, const RelaxationProgress& progress = {});
 
 /// Finds flesh that the motion drives into other flesh, at the moments of frames: of all of them,
 /// or of every second, third ... where frames and particles are many.
