@@ -165,21 +165,29 @@ SINEW_INLINE Pull<L> spring_pull(const BoneNow<typename L::Real>& bone, const Tr
           radial.energy + twist.energy + axial.energy};
 }
 
-/// Springs that yield: body/bone_force.h has the form. A function of its own: few bones
-/// have them.
 template <class L>
-[[gnu::noinline]] void yielding_pull(const BoneNow<typename L::Real>& bone, const Triple<L>& at,
-                                     const Attachment<L>& attachment, const Attachment<L>& at_rest,
-                                     Pull<L>& pull, typename L::V& slides) {
+struct YieldingPull {
+  Pull<L> pull;
+  typename L::V slides;
+};
+
+/// Springs that yield: body/bone_force.h has the form. A function of its own, which takes values:
+/// few bones have them, and those of all others stay in registers.
+template <class L>
+[[gnu::noinline]] YieldingPull<L> yielding_pull(const BoneNow<typename L::Real>& bone, Triple<L> at,
+                                                Attachment<L> attachment, Attachment<L> at_rest) {
+  YieldingPull<L> yielding;
+  auto& [pull, slides] = yielding;
   pull = spring_pull<L, true>(bone, at, attachment, at_rest, slides);
   const typename L::V limit = L::all(bone.yield);
   const auto beyond = L::less(limit, pull.energy);
-  if (!L::any(beyond)) return;
+  if (!L::any(beyond)) return yielding;
   const typename L::V slope = L::pick(beyond, L::root(limit / pull.energy), L::all(1));
   pull.force = slope * pull.force;
   slides = slope * slides;
   const typename L::V grown = (slope + slope) * pull.energy - limit;
   pull.energy = L::pick(beyond, grown, pull.energy);
+  return yielding;
 }
 
 /// Velocity of the bone's point at `at` in its frame, beyond that of a rigid bone.
@@ -215,10 +223,12 @@ SINEW_INLINE BoneSums<L> whole_pull(const BoneNow<typename L::Real>& bone,
   }
   typename L::V slides;
   Pull<L> springs;
-  if (bone.yield > 0) [[unlikely]]
-    yielding_pull<L>(bone, at, attachment, at_rest, springs, slides);
-  else
+  if (bone.yield > 0) [[unlikely]] {
+    const YieldingPull<L> yielding = yielding_pull<L>(bone, at, attachment, at_rest);
+    springs = yielding.pull, slides = yielding.slides;
+  } else {
     springs = spring_pull<L, energy>(bone, at, attachment, at_rest, slides);
+  }
   BoneSums<L> pull;
   pull.spring = from_frame<L>(bone.frame, springs.force);
   pull.carried = carried_by<L>(bone.frame, arm);
