@@ -2,6 +2,7 @@
 #include <sinew/scene/new/new_scene.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace sinew {
@@ -25,7 +26,7 @@ TrackDefinition bending(const std::string& bone, const Vec3& axis, double begin)
   track.bone = bone;
   const auto add = [&](double time, double angle) {
     KeyDefinition& key = track.keys.emplace_back();
-    key.time = time, key.axis = axis, key.angle = angle;
+    key.time = std::round(time * 1000) / 1000, key.axis = axis, key.angle = angle;
   };
   if (begin > 0) add(0, 0);
   add(begin, 0), add(begin + lasts / 2, bend_angle), add(begin + lasts, 0);
@@ -66,7 +67,9 @@ void bend_joints(const Body& body, NewChoices& choices) {
         bending(bone.name, axis, joint_every * static_cast<double>(k)));
   }
   choices.settings.solver.duration =
-      joint_every * static_cast<double>(joints.size() - 1) + lasts + rest_after;
+      std::round(100 *
+                 (joint_every * static_cast<double>(joints.size() - 1) + lasts + rest_after)) /
+      100;
 }
 
 }  // namespace sinew
