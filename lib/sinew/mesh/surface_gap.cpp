@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t faces_per_search = 4;  // few enough to lie close together
 constexpr std::size_t searches_per_task = 32;
+constexpr std::size_t max_shared = 128;  // faces near a search, as between surfaces far apart
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
 // Exact for quadratics over a triangle.
@@ -103,9 +104,15 @@ class Distances {
       reach = std::max(reach, sample.bound);
     }
     to_.find_near(box, reach, group.near);
-    for (const Sample& sample : group.samples)
-      *sample.distance =
-          (to_.nearest(sample.place, sample.bound, group.near) - sample.place).norm();
+    const bool crowded = group.near.face.size() > max_shared;
+    for (const Sample& sample : group.samples) {
+      double bound = sample.bound;
+      if (crowded) {
+        bound = to_.distance(sample.place, bound);
+        to_.find_near(Box(sample.place), bound, group.near);
+      }
+      *sample.distance = (to_.nearest(sample.place, bound, group.near) - sample.place).norm();
+    }
   }
 
   const Triangles &from_, &other_;
