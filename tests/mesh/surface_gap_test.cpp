@@ -47,6 +47,13 @@ TEST(SurfaceGap, OfConcentricSpheresIsTheDifferenceOfTheirRadii) {
   EXPECT_NEAR(gap.mean, 0.2, 1e-3);
 }
 
+TEST(SurfaceGap, OfDistantBallsIsTheDistanceOfTheirCenters) {
+  const Triangles ball = surface_of(shapes::sphere(1, 5));
+  const Triangles coarse = moved(surface_of(shapes::sphere(1, 4)), {7, 0, 0});
+  for (const Triangles& other : {moved(ball, {7, 0, 0}), coarse})
+    EXPECT_NEAR(surface_gap(ball, other).hausdorff, 7, 5e-3);  // they are polyhedra
+}
+
 TEST(SurfaceGap, SeesABumpWhicheverSurfaceHasIt) {
   const Triangles plain = surface_of(shapes::sphere(1, 3));
   Triangles bumped = plain;
