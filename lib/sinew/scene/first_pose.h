@@ -2,8 +2,7 @@
 // A body that begins in the first pose of its motion rather than at rest: skinned by dual
 // quaternions, and relaxed on bones that stand still.
 //
-//     if (begin_of(settings, body, motion).posed) particles = posed(body, motion, particles,
-//     solver);
+//     if (begin_of(settings, body, motion).posed) first = posed(body, motion, rest, solver);
 #pragma once
 
 #include <cstdint>
