@@ -24,6 +24,7 @@ from scipy.spatial import cKDTree
 TYPES = {5120: ("i1", 127), 5121: ("u1", 255), 5122: ("i2", 32767), 5123: ("u2", 65535), 5125: ("u4", 1), 5126: ("f4", 1)}
 SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 FRAMES, LONGEST_PREROLL = 30, 3.0
+MIN_FOUND = 0.9  # of the vertices
 ROTATIONS = [np.diag(signs)[:, axes] for axes in map(list, itertools.permutations(range(3)))
              for signs in itertools.product((1, -1), repeat=3)]
 ROTATIONS = [turn for turn in ROTATIONS if np.linalg.det(turn) > 0]
@@ -165,6 +166,8 @@ def main():
     rest = meshio.read(rows[0][1])
     rest = rest.points - rest.point_data["displacement"]
     nearest, there = found_in(rest, file)
+    if there.mean() < MIN_FOUND:
+        sys.exit(f"exact_skinning.py: {path.name}: {there.mean():.3f} of its vertices are found in the skin of {run}")
 
     def off(row, turn, preroll):
         exact = file.skin(start + max(0, row[0] - preroll))[there] @ turn.T * scale
