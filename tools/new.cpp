@@ -2,15 +2,13 @@
 // sinew-new: a scene for a mesh, which runs as it is.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
-#include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/solids.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/new/new_scene.h>
-#include <sinew/scene/scene_files.h>
+#include <sinew/scene/new/written_scene.h>
+#include <sinew/scene/rig.h>
 #include "command/command.h"
 #include "command/results.h"
 
@@ -19,40 +17,25 @@ namespace {
 using namespace sinew;
 
 struct Options {
-  NewSceneFiles files;
+  NewSceneWish wish;
   std::string shape;
   std::string size = "0.1,0.1,0.4";
-  bool force = false;
 };
 
 void declare(OptionList& list, Options& options) {
-  list.add("MESH", options.files.mesh,
+  list.add("MESH", options.wish.mesh,
            "Mesh (" + mesh_formats() + "); or a rig alone, which gets a skin");
   std::string rig("Skeleton and clip (");
   rig.append(rig_formats).append("); by default those of the mesh's file, or bones along limbs");
-  list.add("RIG", options.files.rig, rig);
-  list.add("-o", options.files.scene, "File of the scene; by default NAME-OF-MESH.yaml")
+  list.add("RIG", options.wish.rig, rig);
+  list.add("-o", options.wish.scene, "File of the scene; by default NAME-OF-MESH.yaml")
       .type_name("FILE");
   list.add("--shape", options.shape, "A body without a mesh: " + listed(solid_names))
       .type_name("SHAPE");
   list.add("--size", options.size, "Its sides along x, y, z in meters")
       .type_name("X,Y,Z")
       .show_default();
-  list.add_flag("--force", options.force, "Replace an older scene");
-}
-
-/// The scene's path, in the current directory by default.
-std::string scene_path(const Options& options) {
-  std::filesystem::path path = options.files.scene;
-  const std::string& from = options.shape.empty() ? options.files.mesh : options.shape;
-  if (path.empty()) path = std::filesystem::path(from).stem().replace_extension(".yaml");
-  if (!is_scene(path))
-    throw bad_input("'" + path.string() + "' is no name for a scene",
-                    "give a name that ends in .yaml");
-  if (std::filesystem::exists(path) && !options.force)
-    throw bad_input(Place{path.string()}, "is there already",
-                    "give another name with -o, or --force to replace it");
-  return path.string();
+  list.add_flag("--force", options.wish.force, "Replace an older scene");
 }
 
 Vec3 size_of(const std::string& text) {
@@ -80,43 +63,25 @@ Triangles solid_of(const Options& options) {
                  size.minCoeff() / 4);
 }
 
-/// Writes the mesh of a shape or of a rig alone, `figure`, beside the scene.
-void write_missing_mesh(Options& options, RigBody& figure) {
-  NewSceneFiles& files = options.files;
-  const bool rig_alone = options.shape.empty() && !holds_mesh(files.mesh);
-  if (options.shape.empty() && !rig_alone) return;
-  if (rig_alone && !files.rig.empty())
-    throw bad_input(Place{files.mesh}, "is no mesh", "give the mesh first, then the rig");
-  if (rig_alone) figure = body_of_rig(files.mesh), files.rig = files.mesh, files.figure = &figure;
-  const Triangles body = rig_alone ? figure.skin : solid_of(options);
-  std::filesystem::path path = files.scene;
-  path.replace_extension(".obj");
-  if (std::filesystem::exists(path) && !options.force)
-    throw bad_input(Place{path.string()}, "is there already",
-                    "give another name with -o, or --force to replace it");
-  files.mesh = path.string();
-  write_file(path, obj_text(body));
-}
-
 Exit make(Options options, const Common& common) {
-  if (options.shape.empty() == options.files.mesh.empty())
+  if (options.shape.empty() == options.wish.mesh.empty())
     throw bad_input("a scene needs a mesh or a shape",
                     "give MESH, or --shape; see sinew new --help");
-  options.files.scene = scene_path(options);
-  RigBody figure;
-  write_missing_mesh(options, figure);
-  const NewScene scene = new_scene(options.files);
-  if (!scene.mesh.empty()) write_file(scene.mesh, scene.mesh_text);
-  write_file(options.files.scene, scene.text);
+  if (!options.shape.empty()) {
+    options.wish.body = solid_of(options);
+    options.wish.mesh = options.shape;
+  }
+  const WrittenScene written = write_new_scene(options.wish);
+  const NewScene& scene = written.scene;
   Results results;
-  results.add("scene", options.files.scene);
+  results.add("scene", written.path);
   if (!scene.mesh.empty()) results.add("mesh", scene.mesh);
   results.add("unit", scene.unit);
   results.add("up", scene.axes);
   results.add("bones", scene.bones);
   if (!scene.pose.empty()) results.add("rest", scene.pose);
   results.add("size", scene.size);
-  results.add("run", "sinew run " + shell_quoted(options.files.scene));
+  results.add("run", "sinew run " + shell_quoted(written.path));
   results.print(common);
   if (!scene.warning.empty()) say(common, "sinew: warning: " + scene.warning);
   return Exit::done;

@@ -36,6 +36,14 @@ inline py::array view_of(const std::vector<std::array<int, 3>>& faces, const py:
   return array;
 }
 
+/// n x 2 int32, not writable.
+inline py::array view_of(const std::vector<std::array<int, 2>>& pairs, const py::object& owner) {
+  const int* first = pairs.empty() ? nullptr : pairs.front().data();
+  py::array_t<int> array({static_cast<py::ssize_t>(pairs.size()), py::ssize_t{2}}, first, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
 template <class Value>
 py::array view_of(const std::vector<Value>& values, const py::object& owner) {
   py::array_t<Value> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
@@ -51,21 +59,27 @@ py::array owned(Array values) {
   return view_of(*kept, owner);
 }
 
-using GivenPoints = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-/// Converts n x 3 numbers. Throws bad input, naming `what`, for another shape.
-inline Points points_of(const GivenPoints& given, const std::string& what) {
-  if (given.ndim() != 2 || given.shape(1) != 3)
-    throw bad_input(what + " are not n x 3 numbers", "give an array of shape (n, 3)");
-  Points points(static_cast<std::size_t>(given.shape(0)));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] = Eigen::Map<const Vec3>(given.data() + 3 * i);
-  return points;
+/// Homogeneous matrices, n x 4 x 4: axes as columns, and the origin.
+inline py::array matrices(const std::vector<RigidFrame>& frames) {
+  py::array_t<double> all(
+      {static_cast<py::ssize_t>(frames.size()), py::ssize_t{4}, py::ssize_t{4}});
+  double* to = all.mutable_data();
+  for (const RigidFrame& frame : frames) {
+    Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows;
+    rows.setIdentity();
+    rows.topLeftCorner<3, 3>() = frame.rotation;
+    rows.topRightCorner<3, 1>() = frame.origin;
+    to = std::copy(rows.data(), rows.data() + rows.size(), to);
+  }
+  return all;
 }
 
 // Each file binds its part.
 
+void bind_meshes(py::module_& module);
+void bind_datasets(py::module_& module);
 void bind_scenes(py::module_& module);
+void bind_inspection(py::module_& module);
 void bind_simulation(py::module_& module);
 void bind_runs(py::module_& module);
 

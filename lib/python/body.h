@@ -2,9 +2,11 @@
 // Particles as Python has them, between filling and simulating.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <sinew/sinew.h>
+#include "made.h"
 
 namespace sinew::python {
 
@@ -13,6 +15,9 @@ struct FilledBody {
   double radius = 0, mass = 0;                            ///< of each particle, m and kg
   std::vector<std::int32_t> component, neighbors;         ///< as in Filling; empty: made in Python
   std::vector<double> volume_share = {}, stiffness = {};  ///< as in Filling
+  Triangles surface = {};                                 ///< of the mesh that is filled, m
+  std::string meta = {};                                  ///< of body.vtu, JSON; "": none
+  std::vector<std::string> warnings = {};                 ///< of the filling
 
   /// The same for prepare().
   BodyFile file() const {

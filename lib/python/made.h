@@ -31,6 +31,12 @@ class made_caster : public type_caster_base<Thing> {
 template <>
 class type_caster<sinew::Settings> : public made_caster<sinew::Settings> {};
 template <>
+class type_caster<sinew::SharedPolygons> : public made_caster<sinew::SharedPolygons> {};
+template <>
+class type_caster<sinew::Surface> : public made_caster<sinew::Surface> {};
+template <>
+class type_caster<sinew::Dataset> : public made_caster<sinew::Dataset> {};
+template <>
 class type_caster<sinew::RunFiles> : public made_caster<sinew::RunFiles> {};
 template <>
 class type_caster<sinew::RunFrame> : public made_caster<sinew::RunFrame> {};

@@ -30,7 +30,10 @@ PYBIND11_MODULE(_sinew, module) {
   bind_errors(module);
   py::module_::import("atexit").attr("register")(
       py::cpp_function(&sinew::python::WithoutGil::let_all_end));
+  sinew::python::bind_meshes(module);
+  sinew::python::bind_datasets(module);
   sinew::python::bind_scenes(module);
+  sinew::python::bind_inspection(module);
   sinew::python::bind_simulation(module);
   sinew::python::bind_runs(module);
 }

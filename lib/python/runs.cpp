@@ -3,13 +3,17 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <sinew/metrics/particle_values.h>
+#include <sinew/run/volume_frames.h>
 #include "arrays.h"
+#include "datasets.h"
 #include "without_gil.h"
 
 namespace sinew::python {
 namespace {
 
 std::shared_ptr<RunFiles> open(const std::filesystem::path& folder) {
+  const WithoutGil free;
   return std::make_shared<RunFiles>(open_run({folder}));
 }
 
@@ -29,13 +33,54 @@ py::dict measure(const std::filesystem::path& folder) {
   return columns;
 }
 
-std::shared_ptr<RunFrame> frame_of(const RunFiles& run, std::int64_t index) {
-  const auto frames = static_cast<std::int64_t>(run.frames());
-  if (index < 0) index += frames;
-  if (index < 0 || index >= frames) throw py::index_error("there is no such frame");
-  const WithoutGil free;
-  return std::make_shared<RunFrame>(read_frame(run, static_cast<std::size_t>(index)));
+py::dict units_of_metrics() {
+  py::dict units;
+  for (const Metric& metric : metrics_table())
+    units[py::str(std::string(metric.name))] = std::string(metric.unit);
+  return units;
 }
+
+std::shared_ptr<RunFrame> frame_of(const RunFiles& run, std::size_t index) {
+  const WithoutGil free;
+  return std::make_shared<RunFrame>(read_frame(run, index));
+}
+
+/// The arrays of particles that positions define, in any frame of a run.
+class RunMeter {
+ public:
+  explicit RunMeter(std::shared_ptr<RunFiles> run) : run_(std::move(run)), rest_(rest_of(*run_)) {}
+
+  Column array(const RunFrame& frame, const std::string& name) const {
+    const RequestedArrays asked = requested_arrays(name);
+    if (!asked.stepped.empty())
+      throw bad_input(shown(name) + " is known while a run steps, and this one has not written it",
+                      "run the scene with output.arrays: " + name);
+    if (asked.measured.size() != 1)
+      throw bad_input(shown(name) + " names " + std::to_string(asked.measured.size()) + " arrays",
+                      "name one, such as stress");
+    const FrameState state = measured_frame(RunFrame(frame));
+    std::vector<Column> found = particle_arrays(rest_, state, asked.measured);
+    return std::move(found.front());
+  }
+
+ private:
+  std::shared_ptr<RunFiles> run_;
+  RestBody rest_;
+};
+
+/// The cells between the particles of a run, in any frame.
+class RunCells {
+ public:
+  explicit RunCells(std::shared_ptr<RunFiles> run) : run_(std::move(run)), cells_(*run_) {}
+
+  std::shared_ptr<Dataset> at(std::size_t index, const Dataset& particles) const {
+    return shared(cells_.at(index, particles));
+  }
+
+ private:
+  std::shared_ptr<RunFiles> run_;
+  RunVolume cells_;
+};
 
 void simulate_into(const Settings& scene, const std::filesystem::path& folder, bool force,
                    bool resume) {
@@ -64,14 +109,39 @@ void bind_frame(py::module_& module) {
   const auto view = [](auto F::*member) {
     return [member](const py::object& self) { return view_of(self.cast<F&>().*member, self); };
   };
-  py::class_<F, std::shared_ptr<F>>(module, "Frame")
+  py::class_<F, std::shared_ptr<F>>(module, "_Frame")
       .def_readonly("time", &F::time)
       .def_property_readonly("positions", view(&F::positions))
       .def_property_readonly("velocities", view(&F::velocities))
       .def_property_readonly("displacement", view(&F::displacement))
       .def_property_readonly("surface", view(&F::surface_points))
       .def_property_readonly("von_mises", view(&F::von_mises))
-      .def_property_readonly("broken_bonds", view(&F::broken_bonds));
+      .def_property_readonly("broken_bonds", view(&F::broken_bonds))
+      .def_property_readonly("bone_frames", [](const F& frame) { return matrices(frame.bones); });
+}
+
+template <class Made>
+auto made_without_gil() {
+  return py::init([](std::shared_ptr<RunFiles> run) {
+    const WithoutGil free;
+    return std::make_unique<Made>(std::move(run));
+  });
+}
+
+void bind_measures(py::module_& module) {
+  py::class_<RunMeter>(module, "_RunMeter")
+      .def(made_without_gil<RunMeter>())
+      .def("array", [](const RunMeter& meter, const RunFrame& frame, const std::string& name) {
+        Column found;
+        {
+          const WithoutGil free;
+          found = meter.array(frame, name);
+        }
+        return rows_of(std::move(found));
+      });
+  py::class_<RunCells>(module, "_RunCells")
+      .def(made_without_gil<RunCells>())
+      .def("at", &RunCells::at, py::call_guard<WithoutGil>());
 }
 
 }  // namespace
@@ -79,10 +149,19 @@ void bind_frame(py::module_& module) {
 void bind_runs(py::module_& module) {
   using R = RunFiles;
   bind_frame(module);
-  py::class_<R, std::shared_ptr<R>>(module, "Run")
+  bind_measures(module);
+  py::class_<R, std::shared_ptr<R>>(module, "_Run")
       .def("__len__", &R::frames)
-      .def("__getitem__", &frame_of)
+      .def("frame", &frame_of)
       .def_property_readonly("folder", [](const R& run) { return run.folder.path; })
+      .def_property_readonly("scene", [](const R& run) { return run.settings; })
+      .def_property_readonly("bones",
+                             [](const R& run) {
+                               std::vector<std::string> names;
+                               for (const Bone& bone : run.skeleton.bones)
+                                 names.push_back(bone.name);
+                               return names;
+                             })
       .def_property_readonly("times",
                              [](const R& run) {
                                std::vector<double> times;
@@ -96,8 +175,9 @@ void bind_runs(py::module_& module) {
       .def_property_readonly("faces", [](const py::object& self) {
         return view_of(self.cast<R&>().surface.faces, self);
       });
-  module.def("open_run", &open, py::arg("folder"));
+  module.def("_open_run", &open);
   module.def("measure", &measure, py::arg("folder"));
+  module.def("_units_of_metrics", &units_of_metrics);
   module.def("_simulate", &simulate_into);
 }
 

@@ -7,50 +7,17 @@
 
 #include "arrays.h"
 #include "body.h"
+#include "given.h"
 #include "without_gil.h"
 
 namespace sinew::python {
 namespace {
 
-using Values = std::vector<std::pair<std::string, std::string>>;  // a path and YAML
-
-std::vector<Override> overrides_of(const Values& values) {
-  std::vector<Override> overrides;
-  for (const auto& [path, value] : values) overrides.push_back(parse_override(path + '=' + value));
-  return overrides;
-}
-
-FilledBody body_of_filling(Filling filling) {
-  FilledBody body;
-  body.points = positions_of(filling.particles);
-  body.radius = filling.particles.radius;
-  body.mass = filling.particles.mass;
-  body.component = std::move(filling.component);
-  body.neighbors = std::move(filling.neighbors);
-  body.volume_share = std::move(filling.volume_share);
-  body.stiffness = std::move(filling.stiffness);
-  return body;
-}
-
-FilledBody fill(const std::filesystem::path& mesh, const Values& values) {
-  const WithoutGil free;
-  const Settings settings = settings_of_mesh(mesh, overrides_of(values));
-  return body_of_filling(fill_body(settings, read_mesh(settings)));
-}
-
-FilledBody fill_scene(const Settings& scene) {
-  const WithoutGil free;
-  return body_of_filling(fill_body(scene, read_mesh(scene)));
-}
-
-FilledBody body_of_points(const GivenPoints& given, double radius, std::optional<double> mass,
+FilledBody body_of_points(const py::object& given, double radius, std::optional<double> mass,
                           double density) {
   FilledBody body;
-  body.points = points_of(given, "the points of a body");
+  body.points = points_of(given, "points");
   if (body.points.empty()) throw bad_input("a body needs particles", "give at least one point");
-  for (const Vec3& point : body.points)
-    if (!is_computable(point))
-      throw bad_input("a point is too large or not finite", "give numbers, in meters");
   if (!(radius > 0 && is_computable(radius)))
     throw bad_input("the radius is not above 0", "give it in meters");
   body.radius = radius;
@@ -71,6 +38,14 @@ void bind_body(py::module_& module) {
       .def_property_readonly("points", view(&B::points))
       .def_property_readonly("component", view(&B::component))
       .def_property_readonly("neighbors", view(&B::neighbors))
+      .def_property_readonly(
+          "vertices",
+          [](const py::object& self) { return view_of(self.cast<B&>().surface.points, self); })
+      .def_property_readonly(
+          "faces",
+          [](const py::object& self) { return view_of(self.cast<B&>().surface.faces, self); })
+      .def_readonly("_meta", &B::meta)
+      .def_readonly("warnings", &B::warnings)
       .def_readonly("radius", &B::radius)
       .def_readonly("mass", &B::mass)
       .def("__len__", [](const B& body) { return body.points.size(); });
@@ -85,13 +60,14 @@ void bind_scenes(py::module_& module) {
       .def_property_readonly("interval", [](const Settings& s) { return s.output.interval; })
       .def("__str__",
            [](const Settings& s) { return resolved_scene(s, std::filesystem::current_path()); });
-  module.def("_fill", &fill);
-  module.def("_fill_scene", &fill_scene);
   module.def("_read_scene", [](const std::filesystem::path& path, const Values& values) {
     return read_scene(path, overrides_of(values));
   });
   module.def("_scene_of_text", [](const std::string& text, const std::filesystem::path& folder) {
     return scene_from_text(text, "scene", folder);
+  });
+  module.def("_set_mesh", [](Settings& scene, const SharedPolygons& polygons) {
+    scene.meshes[scene.body.mesh] = polygons;
   });
 }
 

@@ -11,10 +11,27 @@
 #include <sinew/scene/rig.h>
 #include "arrays.h"
 #include "body.h"
+#include "datasets.h"
+#include "given.h"
 #include "without_gil.h"
 
 namespace sinew::python {
 namespace {
+
+/// The data set of a series. Throws bad input, with the names there are.
+Dataset dataset_of(FrameData& frame, const std::string& series) {
+  if (series == "particles") return frame.particles();
+  if (series == "surface") return frame.surface();
+  if (series == "bones") return frame.bones();
+  if (series == "frames") return frame.frames();
+  if (series == "obstacles") return frame.obstacles();
+  if (series == "supports") return frame.supports();
+  if (series == "bonds") return frame.bonds();
+  if (series == "volume") return frame.volume();
+  throw bad_input("there is no series " + shown(series),
+                  "take one of particles, surface, bones, frames, obstacles, supports, bonds, "
+                  "volume");
+}
 
 /// A scene's simulation, with what Python sees of it: arrays at places that stay.
 class Stepped {
@@ -72,7 +89,7 @@ class Stepped {
             {"dissipated", e.dissipation}};
   }
 
-  void set_forces(const GivenPoints& given) {
+  void set_forces(const py::object& given) {
     refuse_while_stepping();
     if (!own_forces_)
       throw bad_input("this simulation takes no forces",
@@ -90,20 +107,10 @@ class Stepped {
     posing_ = std::move(next);
   }
 
-  /// Frames of the bones: axes as columns and the head, as homogeneous matrices, row by row.
-  std::vector<std::array<double, 16>> bone_frames() const {
+  std::vector<RigidFrame> bone_frames() const {
     refuse_while_stepping();
-    std::vector<std::array<double, 16>> frames;
-    for (const BonePose& bone : simulation_->pose()) {
-      std::array<double, 16> rows{};
-      for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column)
-          rows[4 * row + column] = bone.frame.rotation(row, column);
-        rows[4 * row + 3] = bone.frame.origin[row];
-      }
-      rows[15] = 1;
-      frames.push_back(rows);
-    }
+    std::vector<RigidFrame> frames;
+    for (const BonePose& bone : simulation_->pose()) frames.push_back(bone.frame);
     return frames;
   }
   /// Force and moment of the body on each bone, a row each.
@@ -137,6 +144,16 @@ class Stepped {
     return at_vertices(*skin_, of_particles);
   }
 
+  /// What a file of that series would hold.
+  std::shared_ptr<Dataset> dataset(const std::string& series) {
+    const Busy busy(stepping_);
+    const WithoutGil free;
+    if (!frame_data_) frame_data_.emplace(output_, simulation_->body(), frame_scene_);
+    if (taken_at_ != simulation_->steps()) frame_data_->take(*simulation_);
+    taken_at_ = simulation_->steps();
+    return shared(dataset_of(*frame_data_, series));
+  }
+
   SimulationState save() const {
     refuse_while_stepping();
     return simulation_->save();
@@ -145,7 +162,7 @@ class Stepped {
     refuse_while_stepping();
     simulation_->restore(state);
     time_ = simulation_->time(), steps_ = simulation_->steps();
-    read_at_ = -1;
+    read_at_ = taken_at_ = -1;
   }
 
  private:
@@ -163,6 +180,11 @@ class Stepped {
       skin_ = make_skin(prepared.surface.triangles.points, body.rest,
                         prepared.filled.particles.radius, body.skeleton, body.binding);
     skin_at_rest_ = prepared.surface.triangles;
+    output_ = prepared.settings.output;
+    frame_scene_.surface = skin_at_rest_;
+    frame_scene_.obstacles = prepared.obstacles;
+    frame_scene_.neighbors = body.neighbors;
+    frame_scene_.volume = cells_to_write(prepared);
     if (own_forces) {
       own_forces_.emplace(body.rest.size());
       prepared.body.world = own_forces_->added_to(body.world);
@@ -215,11 +237,14 @@ class Stepped {
   std::optional<Posing> posing_;
   std::optional<OwnForces> own_forces_;
   std::optional<ParticleMeter> meter_;  ///< where arrays were asked for
+  OutputSettings output_;
+  FrameScene frame_scene_;
+  std::optional<FrameData> frame_data_;  ///< where data sets were asked for
   Triangles skin_at_rest_;
   std::optional<Skin> skin_;
   std::vector<std::array<int, 3>> faces_;
   Points positions_, velocities_, forces_, surface_;
-  std::int64_t read_at_ = -1;
+  std::int64_t read_at_ = -1, taken_at_ = -1;
   std::atomic<bool> stepping_ = false;
   std::atomic<double> time_ = 0;
   std::atomic<std::int64_t> steps_ = 0;
@@ -233,17 +258,7 @@ class pybind11::detail::type_caster<sinew::python::Stepped>
     : public pybind11::detail::made_caster<sinew::python::Stepped> {};
 
 namespace sinew::python {
-namespace {
-
-/// A row for each particle or vertex.
-py::array rows_of(Column found) {
-  const py::ssize_t components = found.components;
-  py::array flat =
-      std::visit([](auto& values) -> py::array { return owned(std::move(values)); }, found.values);
-  return components == 1 ? flat : flat.reshape({flat.size() / components, components});
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void bind_simulation(py::module_& module) {
   py::class_<SimulationState>(module, "State");
@@ -266,17 +281,11 @@ void bind_simulation(py::module_& module) {
           "surface_array",
           [](S& self, const std::string& name) { return rows_of(self.measured_on_surface(name)); },
           py::arg("name"))
+      .def("_dataset", &S::dataset, py::arg("series"))
       .def("save", &S::save)
       .def("restore", &S::restore, py::arg("state"))
-      .def_property_readonly(
-          "bone_frames",
-          [](const S& self) {
-            const auto frames = self.bone_frames();
-            py::array_t<double> all({frames.size(), std::size_t{4}, std::size_t{4}});
-            for (std::size_t i = 0; i < frames.size(); ++i)
-              std::copy(frames[i].begin(), frames[i].end(), all.mutable_data() + 16 * i);
-            return all;
-          })
+      .def_property_readonly("bone_frames",
+                             [](const S& self) { return matrices(self.bone_frames()); })
       .def_property_readonly("reactions",
                              [](S& self) {
                                const auto rows = self.reactions();

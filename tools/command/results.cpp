@@ -69,6 +69,15 @@ void Results::add_value(std::string key, Json value) {
   entries_.push_back({std::move(key), "", std::move(value), In::object});
 }
 
+void Results::add(const Findings& findings) {
+  for (const Finding& one : findings.all()) {
+    const In in = one.in == ShownIn::both    ? In::both
+                  : one.in == ShownIn::lines ? In::lines
+                                             : In::object;
+    entries_.push_back({one.key, one.unit, *one.value, in});
+  }
+}
+
 void Results::add_headline(std::string key, std::string words) {
   entries_.push_back({std::move(key), "", std::move(words), In::headlines});
 }

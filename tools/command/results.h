@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/inspection/findings.h>
+
 namespace sinew {
 
 struct Common;
@@ -23,6 +25,8 @@ class Results {
   /// For lines only, where a key may occur twice, and for the object only.
   void add_line(std::string key, nlohmann::ordered_json value, std::string unit = "");
   void add_value(std::string key, nlohmann::ordered_json value);
+
+  void add(const Findings& findings);
 
   /// A line in words, for people. Where there are any, other results are printed with --verbose and
   /// --json alone.

@@ -5,67 +5,63 @@ Lengths are in meters, times in seconds, all else in SI units. What goes wrong r
 what to do and whose exit_code is that of the commands. Arrays are views of the library's own memory, not writable;
 those of a Simulation change with its next steps: copy what you keep.
 """
-import json as _json
-import os as _os
-
 from . import _sinew
-from ._sinew import Body, Error, Frame, Run, Scene, Simulation, __version__, measure, open_run
+from ._data import Dataset, vtk_composite as _composite
+from ._meshes import Diagnosis, Mesh, NewScene, check, diagnose, distance, fill, info, new, polygons_of as _polygons_of, \
+    repair, tetrahedra, winding_number
+from ._runs import Frame, Frames, Run, SERIES as _SERIES, open_run
+from ._sinew import Body, Error, Scene, Simulation, __version__, measure
+from ._values import Findings, pairs as _pairs, yaml as _yaml
 
-__all__ = ["Body", "Error", "Frame", "Run", "Scene", "Simulation", "fill", "make_scene", "measure", "open_run",
-           "read_scene", "simulate"]
-
-
-def _text(value):
-    """As JSON, whose pairs of surrogates YAML does not know."""
-    return _json.dumps(value, ensure_ascii=False)
-
-
-def _yaml(value):
-    """As YAML; the words for what is not given, auto and none, are not texts."""
-    if hasattr(value, "tolist"):  # NumPy's
-        value = value.tolist()
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{_text(str(key))}: {_yaml(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_yaml, value)) + "]"
-    if isinstance(value, _os.PathLike):
-        value = _os.fspath(value)
-    return value if value in ("auto", "none") else _text(value)
-
-
-def _values(settings):
-    return [(path, _yaml(value)) for path, value in settings.items()]
+__all__ = ["Body", "Dataset", "Diagnosis", "Error", "Findings", "Frame", "Frames", "Mesh", "NewScene", "Run", "Scene",
+           "Simulation", "check", "diagnose", "distance", "fill", "info", "make_scene", "measure", "new", "open_run",
+           "read_scene", "repair", "simulate", "tetrahedra",
+           "winding_number"]
 
 
 def read_scene(path, settings=None):
     """The scene of a YAML file; `settings` replaces values: {"material.model": "bonded"}."""
-    return _sinew._read_scene(path, _values(settings or {}))
+    return _sinew._read_scene(path, _pairs(settings or {}))
 
 
-def make_scene(sections, body=None, folder="."):
+def make_scene(sections, body=None, folder=".", mesh=None):
     """The scene of nested dictionaries, as a YAML file has them; paths are relative to `folder`.
 
-    With a `body`, the scene needs no section body: Simulation(scene, body) takes its particles."""
+    With a `body`, the scene needs no section body: Simulation(scene, body) takes its particles. With a `mesh`, as fill()
+    takes it but in no file, section body needs no mesh; a run writes the mesh, in double, beside scene.yaml."""
+    given = sections.get("body", {})
     if body is not None:
-        sections = {**sections, "body": {"mesh": "particles", "radius": body.radius, **sections.get("body", {})}}
-    return _sinew._scene_of_text(_yaml(sections), folder)
-
-
-def fill(mesh, radius=None, count=None, density=None, **options):
-    """Fills a mesh, or the mesh of a Scene, with closest-packed particles of this radius (m) or about this count.
-
-    Options are the keys of a scene's section body: unit="mm", packing="hcp", clearance=0.001, ..."""
-    given = {"body.radius": radius, "body.count": count, "material.density": density,
-             **{f"body.{key}": value for key, value in options.items()}}
-    values = {path: value for path, value in given.items() if value is not None}
-    if not isinstance(mesh, Scene):
-        return _sinew._fill(mesh, _values(values))
-    if values:
-        raise TypeError(f"a scene says itself how it is filled; read it with {values}")
-    return _sinew._fill_scene(mesh)
+        sections = {**sections, "body": {"mesh": "particles", "radius": body.radius, **given}}
+    polygons = None if mesh is None else _polygons_of(mesh)
+    if polygons is not None:
+        sections = {**sections, "body": {"mesh": "mesh", **given}}
+    scene = _sinew._scene_of_text(_yaml(sections), folder)
+    if polygons is not None:
+        _sinew._set_mesh(scene, polygons)
+    return scene
 
 
 def simulate(scene, folder, force=False, resume=False):
     """Runs a scene into a folder, as `sinew simulate` does, and opens the run."""
     _sinew._simulate(scene, folder, force, resume)
-    return open_run(folder)
+    return Run(folder)
+
+
+def _scene_repr(scene):
+    return f"<sinew.Scene of {scene.duration:.6g} s; str() has every key>"
+
+
+def _simulation_repr(simulation):
+    return (f"<sinew.Simulation at {simulation.time:.6g} s, step {simulation.steps}: {len(simulation.positions)} particles, "
+            f"{len(simulation.bones)} bones>")
+
+
+def _to_vtk(simulation):
+    names = ("particles", "surface", "bones", "frames") if len(simulation.faces) else ("particles", "bones", "frames")
+    return _composite({name: simulation.dataset(name) for name in names})
+
+
+Scene.__repr__ = _scene_repr
+Simulation.__repr__ = _simulation_repr
+Simulation.dataset = lambda simulation, series="particles": Dataset(simulation._dataset(series), series)
+Simulation.to_vtk = _to_vtk

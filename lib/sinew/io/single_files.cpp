@@ -45,7 +45,7 @@ void write_blowup(const std::filesystem::path& path, const BlowupFrame& frame, M
   write_vtu(path, blowup_dataset(frame, moment), format);
 }
 
-void write_defects(const std::filesystem::path& path, const DefectsFile& defects) {
+Dataset defects_dataset(const DefectsFile& defects) {
   Dataset data;
   data.points = defects.surface.points;
   data.kind = CellKind::triangle;
@@ -55,9 +55,13 @@ void write_defects(const std::filesystem::path& path, const DefectsFile& defects
     data.lines.insert(data.lines.end(), edge.begin(), edge.end());
   data.cell_columns = {column("defect", defects.defect), column("component", defects.component),
                        column("hole", defects.hole)};
+  return data;
+}
+
+void write_defects(const std::filesystem::path& path, const DefectsFile& defects) {
   VtuFormat format;
   format.series = "defects";
-  write_vtu(path, data, format);
+  write_vtu(path, defects_dataset(defects), format);
 }
 
 namespace {

@@ -50,7 +50,9 @@ struct DefectsFile {
   std::vector<std::int32_t> hole;       ///< -1 for faces and closed edges
 };
 
-/// A VTU of triangles followed by lines. Throws not written.
+/// Triangles followed by lines.
+Dataset defects_dataset(const DefectsFile& defects);
+/// Throws not written.
 void write_defects(const std::filesystem::path& path, const DefectsFile& defects);
 
 // body.vtu: the filled body at rest, in the mesh's own coordinates, Float64.

@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs on the disk: their frames, their tables, whatever else of them is in arrays."""
+import csv
+import os
+
+import numpy
+
+from . import _sinew
+from ._data import Dataset, pyvista_of, vtk_composite
+
+SERIES = ("particles", "surface", "volume", "bones", "frames", "obstacles", "supports", "bonds")
+
+
+def table(columns, units):
+    """A pandas.DataFrame with units in its attrs, or where there is no pandas a dict of arrays."""
+    try:
+        from pandas import DataFrame
+    except ImportError:
+        return columns
+    frame = DataFrame({name: numpy.array(values) for name, values in columns.items()})
+    frame.attrs["units"] = units
+    return frame
+
+
+def _column(values):
+    try:
+        return numpy.array([float(value) if value else numpy.nan for value in values])
+    except ValueError:
+        return numpy.array(values)
+
+
+def read_table(path):
+    """The columns of a CSV file: numbers, empty ones not-a-number, or texts."""
+    with open(path, newline="", encoding="utf-8", errors="surrogateescape") as file:
+        rows = list(csv.reader(file))
+    return {name: _column([row[i] for row in rows[1:]]) for i, name in enumerate(rows[0])} if rows else {}
+
+
+class Frame:
+    """A moment of a run. Positions and the like are views, not writable."""
+
+    def __init__(self, run, index):
+        self._run, self._index = run, index
+        self._frame = run._files.frame(index)
+        self._datasets = {}
+
+    @property
+    def time(self):
+        """s."""
+        return self._frame.time
+
+    @property
+    def positions(self):
+        """Of the particles (n, 3), m."""
+        return self._frame.positions
+
+    @property
+    def velocities(self):
+        """Of the particles (n, 3), m/s; empty: not written."""
+        return self._frame.velocities
+
+    @property
+    def displacement(self):
+        """Its size for each particle (n,), m."""
+        return self._frame.displacement
+
+    @property
+    def surface(self):
+        """Vertices of the skin (n, 3), m; their faces are those of the run."""
+        return self._frame.surface
+
+    @property
+    def von_mises(self):
+        """Pa; empty: not written. See array()."""
+        return self._frame.von_mises
+
+    @property
+    def broken_bonds(self):
+        return self._frame.broken_bonds
+
+    @property
+    def bone_frames(self):
+        """Homogeneous matrices (bones, 4, 4): the axes of each bone, of which the first points along it, and its head, m."""
+        return self._frame.bone_frames
+
+    @property
+    def reactions(self):
+        """Force, N, and moment about its head, N m, of the body on each bone: (bones, 6)."""
+        frames = self.dataset("frames")
+        return numpy.hstack([frames["reaction_force"], frames["reaction_moment"]])
+
+    def dataset(self, series="particles"):
+        """A series at this moment: a Dataset. Cells between the particles (volume) are made where none were written."""
+        if series not in self._datasets:
+            self._datasets[series] = self._run._dataset(series, self._index)
+        return self._datasets[series]
+
+    def array(self, name):
+        """An array of the particles by name: one that was written, or else, of those that positions define, measured:
+        "stress" (n, 6), Pa, "strain", "F", "J", ..."""
+        particles = self.dataset()
+        if name in particles.point_arrays:
+            return particles[name]
+        return self._run._meter.array(self._frame, name)
+
+    __getitem__ = array
+
+    def to_vtk(self):
+        """A vtkMultiBlockDataSet with a named block for each series of the run."""
+        return vtk_composite({series: self.dataset(series) for series in self._run.series})
+
+    def to_pyvista(self):
+        """A pyvista.MultiBlock of the same."""
+        return pyvista_of(self.to_vtk())
+
+    def __repr__(self):
+        return f"<sinew.Frame {self._index} at {self.time:.6g} s: {len(self.positions)} particles>"
+
+
+class Frames:
+    """Some frames of a run in order, or a series of them; each is read when it is asked for."""
+
+    def __init__(self, run, indices, series=None):
+        self._run, self._indices, self._series = run, indices, series
+
+    def __len__(self):
+        return len(self._indices)
+
+    def __getitem__(self, index):
+        if isinstance(index, slice):
+            return Frames(self._run, self._indices[index], self._series)
+        try:
+            frame = self._indices[index]
+        except IndexError:
+            raise IndexError(f"there is no frame {index}: there are {len(self)}") from None
+        return Frame(self._run, frame) if self._series is None else self._run._dataset(self._series, frame)
+
+    @property
+    def times(self):
+        """s."""
+        return self._run.times[list(self._indices)]
+
+    def __repr__(self):
+        what = self._series or "frames"
+        return f"<{len(self)} of {what} of {os.fspath(self._run.folder)!r}>"
+
+
+class Run:
+    """A run on the disk: run[0], run[-1], run[10:20], run.frames("surface"), run.metrics.
+
+    Frames that are there when it is opened: open it again to see more of a run in progress."""
+
+    def __init__(self, folder):
+        self._files = _sinew._open_run(folder)
+        self._kept = {}
+
+    def _once(self, name, make):
+        if name not in self._kept:
+            self._kept[name] = make()
+        return self._kept[name]
+
+    def __len__(self):
+        return len(self._files)
+
+    def __getitem__(self, index):
+        return Frames(self, range(len(self)))[index]
+
+    def frames(self, series=None):
+        """All frames, or the data sets of a series in all of them."""
+        if series is not None and series not in self.series and series != "volume":
+            raise _sinew.Error(f"this run has no series {series!r}; take one of {', '.join(self.series)}")
+        return Frames(self, range(len(self)), series)
+
+    @property
+    def folder(self):
+        return self._files.folder
+
+    @property
+    def scene(self):
+        """The Scene that was run."""
+        return self._files.scene
+
+    @property
+    def times(self):
+        """Of the frames, s."""
+        return self._files.times
+
+    @property
+    def rest(self):
+        """Positions of the particles at rest (n, 3), m."""
+        return self._files.rest
+
+    @property
+    def radius(self):
+        """Of the particles, m."""
+        return self._files.radius
+
+    @property
+    def faces(self):
+        """Of the skin (m, 3)."""
+        return self._files.faces
+
+    @property
+    def bone_names(self):
+        return self._files.bones
+
+    @property
+    def series(self):
+        """Names of the series that were written."""
+        return [name for name in SERIES if (self.folder / f"{name}.pvd").is_file()]
+
+    @property
+    def metrics(self):
+        """What the run measures, a row for each frame: a pandas.DataFrame, or without pandas a dict of arrays."""
+        return table(self._once("metrics", lambda: _sinew.measure(self.folder)), _sinew._units_of_metrics())
+
+    @property
+    def bones(self):
+        """Forces and moments of bones, bones.csv: a row for each bone of each frame, as metrics."""
+        return table(self._once("bones", lambda: read_table(self.folder / "bones.csv")), {})
+
+    @property
+    def _meter(self):
+        return self._once("meter", lambda: _sinew._RunMeter(self._files))
+
+    def _rows(self, series):
+        return self._once(f"{series}.pvd", lambda: _sinew._read_pvd(self.folder / f"{series}.pvd"))
+
+    def _dataset(self, series, index):
+        time = self.times[index]
+        if series == "volume" and "volume" not in self.series:
+            cells = self._once("cells", lambda: _sinew._RunCells(self._files))
+            return Dataset(cells.at(index, self._dataset("particles", index)._data), series, time)
+        if series not in self.series:
+            raise _sinew.Error(f"this run has no series {series!r}; take one of {', '.join(self.series)}")
+        rows = self._rows(series)
+        times = numpy.array([row[0] for row in rows])
+        at = int(numpy.argmin(abs(times - time))) if len(times) else 0
+        if not len(times) or abs(times[at] - time) > 1e-6:
+            raise _sinew.Error(f"{series} have no frame at {time} s; the run may be in progress")
+        return Dataset(_sinew._read_vtu(rows[at][1]), series, time)
+
+    def __repr__(self):
+        span = f"{self.times[0]:.6g} to {self.times[-1]:.6g} s" if len(self) else "none"
+        return (f"<sinew.Run {os.fspath(self.folder)!r}: {len(self)} frames, {span}; {len(self.rest)} particles, "
+                f"{len(self.bone_names)} bones>")
+
+
+def open_run(folder):
+    """The Run in a folder."""
+    return Run(folder)

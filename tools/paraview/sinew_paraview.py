@@ -1,0 +1,299 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""sinew in ParaView: a reader of whole runs, a reader of their tables, and the filters Closest Packing and Deformation.
+
+Tools > Manage Plugins > Load New, or PV_PLUGIN_PATH=FOLDER-OF-THIS-FILE; for pvpython LoadPlugin(FILE, ns=globals()).
+Needs ParaView 5.11 or later with its Python. Particles are found by the package sinew (python3-sinew), or where that
+cannot be imported by the command sinew through files.
+"""
+import contextlib
+import inspect
+import os
+import sys
+
+import numpy
+
+if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 takes from Python, and Python 3.11 has no longer
+    inspect.getargspec = inspect.getfullargspec
+
+from paraview.util.vtkAlgorithm import smdomain, smhint, smproperty, smproxy
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkDataArraySelection
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkTable, vtkUnstructuredGrid
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
+if os.path.dirname(os.path.abspath(__file__)) not in sys.path:
+    sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+from sinew_parts import deformation, packing, run_files
+from sinew_parts.common import Refused, errors_shown, publish_times, requested_time, texts, vtk_array
+
+
+def choice(name, words, default=0):
+    entries = "".join(f'<Entry text="{word}" value="{i}"/>' for i, word in enumerate(words))
+    return smproperty.xml(f'<IntVectorProperty name="{name}" command="Set{name}" number_of_elements="1" '
+                          f'default_values="{default}"><EnumerationDomain name="enum">{entries}</EnumerationDomain>'
+                          "</IntVectorProperty>")
+
+
+@smproxy.reader(name="SinewRun", label="Sinew Run", extensions="json", file_description="Run of sinew (run.json)")
+@smhint.xml('<LiveSource interval="1000" /><ReaderFactory extensions="json" file_description="Run of sinew (run.json)" />')
+class SinewRun(VTKPythonAlgorithmBase):
+    """All series of a run as one composite: a named block for each. While the run goes on, its frames are added."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkMultiBlockDataSet")
+        self._file, self._series, self._seen = None, [], None
+        self._arrays, self._blocks = vtkDataArraySelection(), vtkDataArraySelection()
+        for selection in (self._arrays, self._blocks):
+            selection.AddObserver("ModifiedEvent", lambda *_: self.Modified())
+
+    @smproperty.stringvector(name="FileName")
+    @smdomain.filelist()
+    @smhint.filechooser(extensions="json", file_description="Run of sinew (run.json)")
+    def SetFileName(self, name):
+        if name != self._file:
+            self._file, self._seen = name, None
+            self.Modified()
+
+    @smproperty.doublevector(name="TimestepValues", information_only="1", si_class="vtkSITimeStepsProperty")
+    def GetTimestepValues(self):
+        with contextlib.suppress(Refused):
+            self._open()
+            return self._times()
+        return []
+
+    @smproperty.dataarrayselection(name="Series")
+    def GetSeries(self):
+        return self._blocks
+
+    @smproperty.dataarrayselection(name="Arrays")
+    def GetArrays(self):
+        return self._arrays
+
+    def _state(self):
+        return run_files.state_of(run_files.folder_of_run(self._file))
+
+    def _open(self):
+        state = self._state()
+        if state == self._seen:
+            return
+        self._series = run_files.open_series(state[0])
+        for one in self._series:
+            one.choose(self._arrays)
+            if not self._blocks.ArrayExists(one.name):
+                self._blocks.AddArray(one.name)
+        self._seen = state
+
+    def _times(self):
+        return sorted({time for one in self._series for time, _ in one.rows})
+
+    def GetNeedsUpdate(self):
+        """Whether there are new frames; ParaView asks every second."""
+        with contextlib.suppress(Refused, OSError):
+            if self._seen is not None and self._state() != self._seen:
+                self.Modified()
+                return True
+        return False
+
+    def RequestInformation(self, request, inInfo, outInfo):
+        with errors_shown(self):
+            self._open()
+            publish_times(outInfo.GetInformationObject(0), self._times())
+        return 1
+
+    def RequestData(self, request, inInfo, outInfo):
+        output = vtkMultiBlockDataSet.GetData(outInfo, 0)
+        with errors_shown(self):
+            self._open()
+            times = self._times()
+            time = requested_time(outInfo.GetInformationObject(0))
+            if time is None:
+                time = times[0] if times else 0
+            wanted = [one for one in self._series if self._blocks.ArrayIsEnabled(one.name)]
+            for index, one in enumerate(wanted):
+                output.SetBlock(index, one.at(time, self._arrays))
+                output.GetMetaData(index).Set(vtkCompositeDataSet.NAME(), one.name)
+            output.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
+        return 1
+
+
+@smproxy.source(name="SinewTables", label="Sinew Tables")
+class SinewTables(VTKPythonAlgorithmBase):
+    """A table of a run, a row for each time, to be plotted over its column time: metrics, bones, supports or probes."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkTable")
+        self._file, self._table = None, 0
+
+    @smproperty.stringvector(name="FileName")
+    @smdomain.filelist()
+    @smhint.filechooser(extensions="json", file_description="Run of sinew (run.json)")
+    def SetFileName(self, name):
+        self._file = name
+        self.Modified()
+
+    @smproperty.xml('<IntVectorProperty name="Table" command="SetTable" number_of_elements="1" default_values="0">'
+                    '<EnumerationDomain name="enum">' +
+                    "".join(f'<Entry text="{name}" value="{i}"/>' for i, name in enumerate(run_files.TABLES)) +
+                    "</EnumerationDomain></IntVectorProperty>")
+    def SetTable(self, table):
+        self._table = table
+        self.Modified()
+
+    def RequestData(self, request, inInfo, outInfo):
+        output = vtkTable.GetData(outInfo, 0)
+        with errors_shown(self):
+            table = run_files.table_of(run_files.folder_of_run(self._file), run_files.TABLES[self._table])
+            for label, values in table.items():
+                output.AddColumn(texts(label, values) if isinstance(values, list) else vtk_array(label, values))
+        return 1
+
+
+@smproxy.filter(name="ClosestPacking", label="Closest Packing")
+@smproperty.input(name="Input", port_index=0)
+@smdomain.datatype(dataTypes=["vtkDataObject"], composite_data_supported=True)
+@smproperty.xml('<OutputPort index="0" name="Packing" /><OutputPort index="1" name="Diagnosis" />')
+class ClosestPacking(VTKPythonAlgorithmBase):
+    """Fills any surface with closest-packed particles, or with tetrahedra between them.
+
+    Port 1 has the mesh with its defects: 1 open edge, 2 crowded edge, 3 twisted edge, 4 turned face, 5 intersecting
+    face, 6 flat face."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=1, nOutputPorts=2, outputType="vtkUnstructuredGrid")
+        self._values = {"Radius": 0.0, "Count": 0, "CloseHoles": 0, "Packing": 0, "NestedShells": 0, "Output": 0,
+                        "Rotation": (0.0, 0.0, 0.0)}
+
+    def _set(self, name, value):
+        if self._values[name] != value:
+            self._values[name] = value
+            self.Modified()
+
+    @smproperty.doublevector(name="Radius", default_values=0.0)
+    def SetRadius(self, radius):
+        """Of the particles, in the units of the mesh; 0: by Count."""
+        self._set("Radius", radius)
+
+    @smproperty.intvector(name="Count", default_values=0)
+    def SetCount(self, count):
+        self._set("Count", count)
+
+    @smproperty.xml('<IntVectorProperty name="CloseHoles" command="SetCloseHoles" number_of_elements="1" default_values="0">'
+                    '<BooleanDomain name="bool"/></IntVectorProperty>')
+    def SetCloseHoles(self, close):
+        self._set("CloseHoles", close)
+
+    @choice("Packing", packing.PACKINGS)
+    def SetPacking(self, lattice):
+        self._set("Packing", lattice)
+
+    @smproperty.doublevector(name="Rotation", default_values=[0.0, 0.0, 0.0])
+    def SetRotation(self, x, y, z):
+        """Of the packing about its x, then y, then z axis, in degrees."""
+        self._set("Rotation", (x, y, z))
+
+    @choice("NestedShells", packing.RULES)
+    def SetNestedShells(self, rule):
+        self._set("NestedShells", rule)
+
+    @choice("Output", ("particles", "tetrahedra"))
+    def SetOutput(self, output):
+        self._set("Output", output)
+
+    def FillInputPortInformation(self, port, info):
+        info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject")
+        return 1
+
+    def _options(self):
+        values = self._values
+        if values["Radius"] and values["Count"]:
+            raise Refused("the size of the particles is given twice; set Radius or Count to 0")
+        if not values["Radius"] and not values["Count"]:
+            raise Refused("the size of the particles is not given; set Radius, or Count to about how many there shall be")
+        options = {"radius": values["Radius"]} if values["Radius"] else {"count": values["Count"]}
+        if values["CloseHoles"]:
+            options["close_holes"] = True
+        if values["Packing"]:
+            options["packing"] = packing.PACKINGS[values["Packing"]]
+        if values["NestedShells"]:
+            options["fill_rule"] = packing.RULES[values["NestedShells"]]
+        if any(values["Rotation"]):
+            options["lattice_rotation"] = list(values["Rotation"])
+        return options
+
+    def RequestData(self, request, inInfo, outInfo):
+        with errors_shown(self):
+            mesh = packing.polygons_of(vtkDataObject.GetData(inInfo[0], 0))
+            by, options = packing.engine(), self._options()
+            defects, found, warnings = by.diagnose(mesh, options)
+            output = vtkUnstructuredGrid.GetData(outInfo, 1)
+            output.ShallowCopy(defects)
+            packing.add_findings(output, found, warnings, by.name)
+            filled, report, warnings = by.fill(mesh, options, self._values["Output"] == 1)
+            output = vtkUnstructuredGrid.GetData(outInfo, 0)
+            output.ShallowCopy(filled)
+            packing.add_findings(output, report, warnings, by.name)
+        return 1
+
+
+@smproxy.filter(name="Deformation", label="Deformation")
+@smproperty.input(name="Reference", port_index=1, multiple_input=False, none_string="ReferenceTime of the input")
+@smproperty.xml('<Hints><Optional/></Hints>')
+@smdomain.datatype(dataTypes=["vtkDataObject"], composite_data_supported=True)
+@smproperty.input(name="Input", port_index=0)
+@smdomain.datatype(dataTypes=["vtkDataObject"], composite_data_supported=True)
+class Deformation(VTKPythonAlgorithmBase):
+    """Deformation of any points between two moments, by least squares over the neighbors at the first: F (row by row),
+    J, strain (Green-Lagrange), stretch (principal), strain_eq, D2min (mean of |dx - F dX|^2), R and its angle, rotation
+    (degrees). The first moment is ReferenceTime of the input, or the second input. Points are matched by ids."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=2, nOutputPorts=1, outputType="vtkUnstructuredGrid")
+        self._reference_time, self._cutoff = 0.0, 0.0
+        self._kept, self._asks = None, False
+
+    @smproperty.doublevector(name="ReferenceTime", default_values=0.0)
+    def SetReferenceTime(self, time):
+        self._reference_time, self._kept = time, None
+        self.Modified()
+
+    @smproperty.doublevector(name="Cutoff", default_values=0.0)
+    def SetCutoff(self, cutoff):
+        """Points closer than this at rest are neighbors; 0: 1.2 times the usual distance of the
+        twelfth nearest."""
+        self._cutoff = cutoff
+        self.Modified()
+
+    def FillInputPortInformation(self, port, info):
+        info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject")
+        if port == 1:
+            info.Set(self.INPUT_IS_OPTIONAL(), 1)
+        return 1
+
+    def RequestUpdateExtent(self, request, inInfo, outInfo):
+        source = inInfo[0].GetInformationObject(0)
+        if self._asks and source.Has(vtkStreamingDemandDrivenPipeline.TIME_STEPS()):
+            source.Set(vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP(), self._reference_time)
+        return 1
+
+    def RequestData(self, request, inInfo, outInfo):
+        with errors_shown(self):
+            rest = self._rest(inInfo)
+            if rest is None:  # ask for another moment of the input
+                request.Set(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING(), 1)
+                return 1
+            deformation.add_deformation(vtkUnstructuredGrid.GetData(outInfo, 0), rest, vtkDataObject.GetData(inInfo[0], 0), self._cutoff)
+        self._asks, self._kept = False, None
+        request.Remove(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING())
+        return 1
+
+    def _rest(self, inInfo):
+        """Positions and ids at rest; None: first another moment is needed, at rest if _asks, else the wanted one."""
+        if inInfo[1].GetNumberOfInformationObjects() > 0:
+            return deformation.points_of(vtkDataObject.GetData(inInfo[1], 0))
+        if not inInfo[0].GetInformationObject(0).Has(vtkStreamingDemandDrivenPipeline.TIME_STEPS()):
+            raise Refused("the input has one moment; give the moment at rest as the second input, Reference")
+        if self._asks:
+            self._kept, self._asks = deformation.points_of(vtkDataObject.GetData(inInfo[0], 0)), False
+            return None
+        self._asks = self._kept is None
+        return self._kept

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What all parts of the plugin share: errors in ParaView's window, arrays, composites, times."""
+import contextlib
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
+
+class Refused(Exception):
+    """What a user has to mend, in words."""
+
+
+@contextlib.contextmanager
+def errors_shown(algorithm):
+    """Shows what is refused in ParaView's window of messages."""
+    try:
+        yield
+    except Refused as refused:
+        vtkOutputWindow.GetInstance().DisplayErrorText(f"ERROR: {type(algorithm).__name__}: {refused}\n")
+
+
+def vtk_array(name, values, kind=None):
+    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=1, array_type=kind)
+    array.SetName(name)
+    return array
+
+
+def texts(name, values):
+    array = vtkStringArray()
+    array.SetName(name)
+    for value in values:
+        array.InsertNextValue(str(value))
+    return array
+
+
+def leaves(data):
+    """The data sets in a composite, or the one."""
+    if not isinstance(data, vtkCompositeDataSet):
+        return [data]
+    found, at = [], data.NewIterator()
+    at.InitTraversal()
+    while not at.IsDoneWithTraversal():
+        found.append(at.GetCurrentDataObject())
+        at.GoToNextItem()
+    return found
+
+
+def requested_time(info):
+    key = vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
+    return info.Get(key) if info.Has(key) else None
+
+
+def publish_times(info, times):
+    keys = vtkStreamingDemandDrivenPipeline
+    info.Remove(keys.TIME_STEPS())
+    info.Remove(keys.TIME_RANGE())
+    for time in times:
+        info.Append(keys.TIME_STEPS(), time)
+    if len(times):
+        info.Append(keys.TIME_RANGE(), times[0])
+        info.Append(keys.TIME_RANGE(), times[-1])

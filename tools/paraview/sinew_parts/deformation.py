@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Deformation of points between two moments, by least squares over the neighbors at the first."""
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSet, vtkPolyData, vtkStaticPointLocator
+
+from .common import Refused, leaves, vtk_array
+
+ID_NAMES = ("id", "ID", "Id", "ids", "particle_id", "GlobalIds", "GlobalNodeId", "GlobalPointIds", "vtkOriginalPointIds")
+PAIRS_AT_ONCE = 1 << 22
+
+
+def points_of(data):
+    """Positions and ids of all points, ascending by id where they have ids."""
+    sets = [leaf for leaf in leaves(data) if isinstance(leaf, vtkDataSet) and leaf.GetNumberOfPoints()]
+    if not sets:
+        raise Refused("the input has no points")
+    positions, ids = [], []
+    for one in sets:
+        if hasattr(one, "GetPoints") and one.GetPoints():
+            positions.append(vtk_to_numpy(one.GetPoints().GetData()).astype(float))
+        else:
+            positions.append(numpy.array([one.GetPoint(i) for i in range(one.GetNumberOfPoints())]))
+        found = [one.GetPointData().GetArray(name) for name in ID_NAMES if one.GetPointData().GetArray(name)]
+        ids.append(vtk_to_numpy(found[0]).astype(numpy.int64) if found else None)
+    if any(one is None for one in ids):
+        return numpy.concatenate(positions), None
+    ids = numpy.concatenate(ids)
+    if len(numpy.unique(ids)) != len(ids):
+        raise Refused("several points have the same id; each needs one of its own")
+    return numpy.concatenate(positions), ids
+
+
+def cells_of(points, size):
+    """Points sorted by cells of a grid of that size, with the keys of their cells and the grid's strides."""
+    cell = numpy.floor((points - points.min(0)) / size).astype(numpy.int64) + 1
+    counts = cell.max(0) + 2
+    strides = numpy.array([1, counts[0], counts[0] * counts[1]])
+    keys = cell @ strides
+    order = numpy.argsort(keys, kind="stable")
+    return order, keys[order], strides
+
+
+def pairs_within(points, cutoff):
+    """Yields arrays i, j of pairs closer than the cutoff, each in both directions."""
+    order, keys, strides = cells_of(points, cutoff)
+    sorted_points = points[order]
+    for offset in numpy.ndindex(3, 3, 3):
+        shifted = keys + (numpy.array(offset) - 1) @ strides
+        first = numpy.searchsorted(keys, shifted, "left")
+        count = numpy.searchsorted(keys, shifted, "right") - first
+        ends = numpy.cumsum(count)
+        begin = 0
+        while begin < len(points):
+            done = ends[begin - 1] if begin else 0
+            end = max(begin + 1, int(numpy.searchsorted(ends, done + PAIRS_AT_ONCE, "right")))
+            each = count[begin:end]
+            i = numpy.repeat(numpy.arange(begin, end), each)
+            j = numpy.arange(each.sum()) - numpy.repeat(ends[begin:end] - each - done, each) + numpy.repeat(first[begin:end], each)
+            near = (((sorted_points[i] - sorted_points[j]) ** 2).sum(1) < cutoff * cutoff) & (i != j)
+            yield order[i[near]], order[j[near]]
+            begin = end
+
+
+def usual_cutoff(points):
+    """1.2 times the usual distance of the twelfth nearest other point: of a closest packing, all that touch."""
+    cloud, places = vtkPolyData(), vtkPoints()
+    places.SetData(numpy_to_vtk(points, deep=1))
+    cloud.SetPoints(places)
+    locator, found = vtkStaticPointLocator(), vtkIdList()
+    locator.SetDataSet(cloud)
+    locator.BuildLocator()
+    farthest = []
+    for i in range(0, len(points), max(1, len(points) // 2000)):
+        locator.FindClosestNPoints(13, points[i], found)
+        near = points[[found.GetId(k) for k in range(found.GetNumberOfIds())]]
+        farthest.append(numpy.linalg.norm(near - points[i], axis=1).max())
+    usual = float(numpy.median(farthest))
+    if not usual > 0:
+        raise Refused("the points lie upon each other at rest; set Cutoff to the range of neighbors")
+    return 1.2 * usual
+
+
+def inverses(matrices):
+    """Of symmetric 3 x 3 matrices (9, n); not-a-number where the neighbors lie in one plane."""
+    a, b, c, _, e, f, _, _, i = matrices
+    adjugate = numpy.stack([e * i - f * f, c * f - b * i, b * f - c * e, c * f - b * i, a * i - c * c, b * c - a * f,
+                            b * f - c * e, b * c - a * f, a * e - b * b])
+    det = a * adjugate[0] + b * adjugate[1] + c * adjugate[2]
+    defined = det > 1e-6 * ((a + e + i) / 3) ** 3
+    return numpy.where(defined, adjugate / numpy.where(defined, det, 1), numpy.nan).T.reshape(-1, 3, 3)
+
+
+def gradients(rest, now, cutoff):
+    """F = (sum dx dX^T) (sum dX dX^T)^-1 over neighbors at rest, and the mean of |dx - F dX|^2. Not-a-number where
+    the neighbors lie in one plane. A second pass, over what the first F leaves, makes it exact to rounding."""
+    number = len(rest)
+    spread, F, inverse = numpy.zeros((9, number)), numpy.zeros((number, 3, 3)), None
+    for _ in range(2):
+        moved, squares, counts = numpy.zeros((9, number)), numpy.zeros(number), numpy.zeros(number)
+        for i, j in pairs_within(rest, cutoff):
+            at_rest, left = rest[j] - rest[i], now[j] - now[i]
+            known = numpy.isfinite(left).all(1)
+            i, at_rest, left = i[known], at_rest[known], left[known]
+            left = left - numpy.einsum("nab,nb->na", F[i], at_rest)
+            counts += numpy.bincount(i, minlength=number)
+            squares += numpy.bincount(i, (left ** 2).sum(1), number)
+            for a in range(3):
+                for b in range(3):
+                    moved[3 * a + b] += numpy.bincount(i, left[:, a] * at_rest[:, b], number)
+                    if inverse is None:
+                        spread[3 * a + b] += numpy.bincount(i, at_rest[:, a] * at_rest[:, b], number)
+        if inverse is None:
+            inverse = inverses(spread)
+        F = F + moved.T.reshape(-1, 3, 3) @ inverse
+    with numpy.errstate(invalid="ignore", divide="ignore"):
+        return F, numpy.where(numpy.isfinite(F[:, 0, 0]), squares / counts, numpy.nan)
+
+
+def determinants(F):
+    return (F[:, 0] * numpy.cross(F[:, 1], F[:, 2])).sum(1)
+
+
+def deformation_arrays(F, away):
+    """The arrays by name, as sinew measures them; tensors as ParaView orders them."""
+    known = numpy.isfinite(F).all((1, 2))
+    U, stretch, Vt = (numpy.full(shape, numpy.nan) for shape in (F.shape, F.shape[:2], F.shape))
+    U[known], stretch[known], Vt[known] = numpy.linalg.svd(F[known])
+    J = determinants(F)
+    turn = numpy.sign(determinants(U @ Vt))
+    U[:, :, 2] *= turn[:, None]
+    R = U @ Vt
+    C = numpy.swapaxes(F, 1, 2) @ F
+    E = (C - numpy.eye(3)) / 2
+    with numpy.errstate(invalid="ignore", divide="ignore"):
+        log = numpy.log(stretch)
+    deviator = log - log.mean(1, keepdims=True)
+    cosine = (numpy.trace(R, axis1=1, axis2=2) - 1) / 2
+    axial = numpy.stack([R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]], 1) / 2
+    angle = numpy.degrees(numpy.arctan2(numpy.linalg.norm(axial, axis=1), cosine))
+    return {"F": F.reshape(-1, 9), "J": J, "strain": numpy.stack([E[:, 0, 0], E[:, 1, 1], E[:, 2, 2], E[:, 0, 1], E[:, 1, 2], E[:, 0, 2]], 1),
+            "stretch": stretch, "strain_eq": numpy.sqrt(2 / 3 * (deviator ** 2).sum(1)), "D2min": away, "R": R.reshape(-1, 9),
+            "rotation": angle}
+
+
+COMPONENTS = {9: ("XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"), 6: ("XX", "YY", "ZZ", "XY", "YZ", "XZ"), 3: ("1", "2", "3")}
+
+
+def fill_points(output, data, positions):
+    """The points of the input as vertices, with their arrays where they are in one data set."""
+    places, cells = vtkPoints(), vtkCellArray()
+    places.SetData(numpy_to_vtk(positions, deep=1))
+    output.SetPoints(places)
+    number = len(positions)
+    cells.SetData(numpy_to_vtkIdTypeArray(numpy.arange(number + 1), deep=1), numpy_to_vtkIdTypeArray(numpy.arange(number), deep=1))
+    output.SetCells(1, cells)
+    sets = [leaf for leaf in leaves(data) if isinstance(leaf, vtkDataSet) and leaf.GetNumberOfPoints()]
+    if len(sets) == 1:
+        output.GetPointData().ShallowCopy(sets[0].GetPointData())
+
+
+def matched(reference, present):
+    """Places of the reference's points now, and of each present point in the reference; -1: it was not there."""
+    (rest, rest_ids), (now, ids) = reference, present
+    if ids is None or rest_ids is None:
+        if len(rest) != len(now):
+            raise Refused(f"there are {len(rest)} points at rest and {len(now)} later, and no ids (an array `id`) to match them by")
+        return now, numpy.arange(len(now))
+    order = numpy.argsort(rest_ids)
+    at = numpy.minimum(numpy.searchsorted(rest_ids[order], ids), len(order) - 1)
+    place = numpy.where(rest_ids[order][at] == ids, order[at], -1)
+    moved = numpy.full_like(rest, numpy.nan)
+    moved[place[place >= 0]] = now[place >= 0]
+    return moved, place
+
+
+def add_deformation(output, reference, data, cutoff):
+    """The points of `data` with what has happened to them since the reference."""
+    if cutoff < 0:
+        raise Refused("the cutoff is below 0; give 0, or the range of neighbors")
+    present = points_of(data)
+    moved, place = matched(reference, present)
+    arrays = deformation_arrays(*gradients(reference[0], moved, cutoff or usual_cutoff(reference[0])))
+    fill_points(output, data, present[0])
+    for name, values in arrays.items():
+        placed = numpy.where((place >= 0).reshape(-1, *[1] * (values.ndim - 1)), values[place], numpy.nan)
+        array = vtk_array(name, placed)
+        for component, label in enumerate(COMPONENTS.get(array.GetNumberOfComponents(), ())):
+            array.SetComponentName(component, label)
+        output.GetPointData().AddArray(array)
