@@ -138,7 +138,7 @@ PolygonSoup polygons_of(const py::object& vertices, const py::object& faces) {
 
 std::vector<Override> overrides_of(const Values& values) {
   std::vector<Override> overrides;
-  for (const auto& [path, value] : values) overrides.push_back(parse_override(path + '=' + value));
+  for (const auto& [path, value] : values) overrides.push_back({path, value, path + '=' + value});
   return overrides;
 }
 

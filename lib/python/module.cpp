@@ -10,6 +10,7 @@ namespace py = pybind11;
 /// Errors of the library become sinew.Error, with the exit code that the commands end with.
 void bind_errors(py::module_& module) {
   static py::exception<sinew::Error> error(module, "Error");
+  error.attr("exit_code") = static_cast<int>(sinew::Exit::bad_input);
   // NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 calls
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {

@@ -215,7 +215,7 @@ class ClosestPacking(VTKPythonAlgorithmBase):
         if values["Packing"]:
             options["packing"] = packing.PACKINGS[values["Packing"]]
         if values["NestedShells"]:
-            options["fill_rule"] = packing.RULES[values["NestedShells"]]
+            options["rule"] = packing.RULES[values["NestedShells"]]
         if any(values["Rotation"]):
             options["lattice_rotation"] = list(values["Rotation"])
         return options

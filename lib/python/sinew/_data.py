@@ -54,8 +54,9 @@ def vtk_grid(points, blocks, point_arrays, cell_arrays=(), field_arrays=(), unit
 
 
 def _ids(values):
+    """A copy: vtkCellArray shares the memory of such arrays without keeping it."""
     from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
-    return numpy_to_vtkIdTypeArray(values)
+    return numpy_to_vtkIdTypeArray(values, deep=1)
 
 
 def particles_of_body(body):

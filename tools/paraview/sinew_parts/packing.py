@@ -18,7 +18,7 @@ from .common import Refused, leaves, texts, vtk_array
 
 
 PACKINGS = ("fcc", "hcp", "random", "conformal")
-RULES = ("unite", "hollow")
+RULES = ("union", "hollow")
 
 
 def triangles_of(polygons):
@@ -88,7 +88,7 @@ class ByModule:
             raise Refused(error) from None
 
     def diagnose(self, mesh, options):
-        kept = {key: value for key, value in options.items() if key in ("close_holes", "fill_rule")}
+        kept = {key: value for key, value in options.items() if key in ("close_holes", "rule")}
         try:
             found = self.module.diagnose(mesh, **kept)
             return found.to_vtk(), dict(found), found.warnings
@@ -139,7 +139,7 @@ class ByCommand:
             return grid, report, warnings
 
     def diagnose(self, mesh, options):
-        kept = {key: value for key, value in options.items() if key in ("close_holes", "fill_rule")}
+        kept = {key: value for key, value in options.items() if key in ("close_holes", "rule")}
         with tempfile.TemporaryDirectory(prefix="sinew-") as folder:
             given, drawn = os.path.join(folder, "mesh.vtp"), os.path.join(folder, "defects.vtu")
             write_polygons(mesh, given)
