@@ -7,7 +7,7 @@ set -euo pipefail
 build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-dev libtbb-dev
   libdeflate-dev liblz4-dev libexpat1-dev libcli11-dev nlohmann-json3-dev libfmt-dev libx11-dev xvfb ffmpeg
   libjs-chart.js libjs-three liblammps-dev lammps openmpi-bin)
-test=(libgtest-dev libbenchmark-dev pybind11-dev python3-dev python3 python3-ase python3-matplotlib python3-meshio python3-numpy python3-vtk9 xauth iproute2 paraview procps calculix-ccx chromium clang-format clang-tidy)
+test=(libgtest-dev libbenchmark-dev pybind11-dev python3-dev python3 python3-ase python3-ipykernel python3-matplotlib python3-meshio python3-nbconvert python3-numpy python3-vtk9 xauth iproute2 paraview procps calculix-ccx chromium clang-format clang-tidy)
 package=(pybind11-dev python3-dev dpkg-dev file help2man)
 bench=(libbenchmark-dev libgtest-dev python3)
 ci=(debootstrap debian-archive-keyring git)

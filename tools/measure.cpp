@@ -5,10 +5,8 @@
 #include <cmath>
 
 #include <sinew/core/arrays.h>
-#include <sinew/core/file.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/metrics/files.h>
 #include <sinew/metrics/table.h>
 #include <sinew/run/report_input.h>
 #include <sinew/run/run_record.h>
@@ -123,14 +121,6 @@ MeasureOptions how_to_measure(const Options& options, const Common& common) {
   return how;
 }
 
-void write_tables(const RunFolder& folder, const Measured& measured) {
-  write_file(folder.path / "metrics.csv", metrics_csv(measured.frames));
-  write_file(folder.path / "metrics_bones.csv", bone_metrics_csv(measured.bones));
-  write_file(folder.path / "sections.csv", sections_csv(measured.sections));
-  write_file(folder.path / "metrics.json",
-             metrics_json(measured.frames, measured.summary, measured.checks));
-}
-
 Exit measure_folder(const Options& options, const Common& common) {
   if (!options.out.empty())
     throw bad_input("-o is for the comparison of several runs",
@@ -146,7 +136,7 @@ Exit measure_folder(const Options& options, const Common& common) {
             std::to_string(run.frames_named) +
             " frames are in all series (a run in progress, or interrupted); these are measured");
   Measured measured = measure_run(run, how);
-  write_tables(run.folder, measured);
+  write_tables(run, measured);
   record_stage(run.folder, "measuring", watch.lap());
   print_results(measured, run, common);
   if (const std::string reasons = reasons_for_distrust(
@@ -155,8 +145,7 @@ Exit measure_folder(const Options& options, const Common& common) {
     say(common, "warning: this run is not to be trusted: at its worst, " + reasons);
   const Exit exit = exit_after(measured.checks);
   const MovieLink movie = options.movie_follows ? MovieLink::follows : MovieLink::if_there;
-  write_file(run.folder.path / "report.html",
-             report_html(report_input(run, std::move(measured), movie)));
+  write_report(run, std::move(measured), movie);
   return exit;
 }
 

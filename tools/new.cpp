@@ -7,7 +7,7 @@
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/solids.h>
 #include <sinew/scene/body.h>
-#include <sinew/scene/new/written_scene.h>
+#include <sinew/scene/new/new_scene.h>
 #include <sinew/scene/rig.h>
 #include "command/command.h"
 #include "command/results.h"

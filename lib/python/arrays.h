@@ -74,6 +74,28 @@ inline py::array matrices(const std::vector<RigidFrame>& frames) {
   return all;
 }
 
+/// Its own copy of all that it refers to.
+inline std::shared_ptr<Dataset> shared(Dataset data) {
+  return std::make_shared<Dataset>(evaluated(std::move(data)));
+}
+
+/// A row for each value, as a view of `column`, which `owner` keeps.
+inline py::array rows_of(const Column& column, const py::object& owner) {
+  const py::array flat =
+      std::visit([&](const auto& values) { return view_of(values, owner); }, column.values);
+  const py::ssize_t components = column.components;
+  if (components == 1) return flat;
+  py::array rows = flat.attr("reshape")(-1, components);
+  return rows;
+}
+
+/// The same of a column that nobody else keeps.
+inline py::array rows_of(Column column) {
+  auto* kept = new Column(std::move(column));
+  const py::capsule owner(kept, [](void* all) { delete static_cast<Column*>(all); });
+  return rows_of(*kept, owner);
+}
+
 // Each file binds its part.
 
 void bind_meshes(py::module_& module);

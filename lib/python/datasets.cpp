@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Data sets: the files of a series, or what such a file would hold of a simulation.
-#include "datasets.h"
+#include "arrays.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

@@ -5,7 +5,7 @@
 
 #include <sinew/inspection/check.h>
 #include <sinew/inspection/info.h>
-#include <sinew/scene/new/written_scene.h>
+#include <sinew/scene/new/new_scene.h>
 #include "arrays.h"
 #include "given.h"
 #include "made.h"

@@ -7,7 +7,6 @@
 #include <sinew/mesh/point_queries.h>
 #include "arrays.h"
 #include "body.h"
-#include "datasets.h"
 #include "given.h"
 #include "made.h"
 #include "without_gil.h"

@@ -6,7 +6,6 @@
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/volume_frames.h>
 #include "arrays.h"
-#include "datasets.h"
 #include "without_gil.h"
 
 namespace sinew::python {
@@ -31,6 +30,15 @@ py::dict measure(const std::filesystem::path& folder) {
     columns[py::str(std::string(metric.name))] = owned(std::move(values));
   }
   return columns;
+}
+
+/// Measures a run into its folder, with the report.
+std::filesystem::path report(const RunFiles& run) {
+  const WithoutGil free;
+  Measured measured = measure_run(run, {});
+  write_tables(run, measured);
+  write_report(run, std::move(measured), MovieLink::if_there);
+  return run.folder.path / "report.html";
 }
 
 py::dict units_of_metrics() {
@@ -177,6 +185,7 @@ void bind_runs(py::module_& module) {
       });
   module.def("_open_run", &open);
   module.def("measure", &measure, py::arg("folder"));
+  module.def("_report", &report);
   module.def("_units_of_metrics", &units_of_metrics);
   module.def("_simulate", &simulate_into);
 }

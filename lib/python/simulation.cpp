@@ -11,7 +11,6 @@
 #include <sinew/scene/rig.h>
 #include "arrays.h"
 #include "body.h"
-#include "datasets.h"
 #include "given.h"
 #include "without_gil.h"
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include <sinew/core/cell_grid.h>
@@ -45,6 +46,19 @@ std::string message_of(const std::function<void()>& job) {
   }
   ADD_FAILURE() << "no error";
   return {};
+}
+
+TEST(Pack, FillsPolygonsAsTheSurfaceOfThem) {
+  // A unit cube: 1 / (4 sqrt(2) r^3) particles, less a layer at the faces.
+  const Points points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
+                         {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  const std::vector<std::vector<int>> quads = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                               {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  const Filling filling = fill(points, quads, with_radius(0.02));
+  const double dense = 1 / (4 * std::sqrt(2.0) * std::pow(0.02, 3));
+  EXPECT_NEAR(static_cast<double>(filling.particles.size()) / dense, 1, 0.06);
+  EXPECT_EQ(filling.particles.x, pack(clean({points, quads}), with_radius(0.02)).particles.x);
+  EXPECT_THROW(fill(points, {{0, 1, 8}}, with_radius(0.02)), Error);
 }
 
 TEST(Pack, GivesTheMeshsMassInAll) {

@@ -149,6 +149,7 @@ class SinewTables(VTKPythonAlgorithmBase):
 
 
 @smproxy.filter(name="ClosestPacking", label="Closest Packing")
+@smhint.xml('<ShowInMenu category="sinew" />')
 @smproperty.input(name="Input", port_index=0)
 @smdomain.datatype(dataTypes=["vtkDataObject"], composite_data_supported=True)
 @smproperty.xml('<OutputPort index="0" name="Packing" /><OutputPort index="1" name="Diagnosis" />')
@@ -236,8 +237,8 @@ class ClosestPacking(VTKPythonAlgorithmBase):
 
 
 @smproxy.filter(name="Deformation", label="Deformation")
+@smhint.xml('<ShowInMenu category="sinew" />')
 @smproperty.input(name="Reference", port_index=1, multiple_input=False, none_string="ReferenceTime of the input")
-@smproperty.xml('<Hints><Optional/></Hints>')
 @smdomain.datatype(dataTypes=["vtkDataObject"], composite_data_supported=True)
 @smproperty.input(name="Input", port_index=0)
 @smdomain.datatype(dataTypes=["vtkDataObject"], composite_data_supported=True)

@@ -229,6 +229,7 @@ class Run:
         """A pandas.DataFrame, or without pandas a dict of arrays."""
     @property
     def bones(self) -> Any: ...
+    def report(self) -> Path: ...
 
 class NewScene:
     """A scene that new() has written."""

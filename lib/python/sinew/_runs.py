@@ -219,6 +219,10 @@ class Run:
         """Forces and moments of bones, bones.csv: a row for each bone of each frame, as metrics."""
         return table(self._once("bones", lambda: read_table(self.folder / "bones.csv")), {})
 
+    def report(self):
+        """Measures the run into its folder, as `sinew measure` does; the path of report.html."""
+        return _sinew._report(self._files)
+
     @property
     def _meter(self):
         return self._once("meter", lambda: _sinew._RunMeter(self._files))

@@ -16,6 +16,7 @@
 #include <sinew/fill/fill_limits.h>
 #include <sinew/fill/fill_warnings.h>
 #include <sinew/fill/filled_sites.h>
+#include <sinew/mesh/clean.h>
 
 namespace sinew {
 namespace {
@@ -214,6 +215,10 @@ Filling pack(const Surface& surface, const PackOptions& options) {
   report.seconds_verifying = watch.lap();
   report.warnings = warnings_of(report, surface);
   return filling;
+}
+
+Filling fill(Points points, std::vector<std::vector<int>> polygons, const PackOptions& options) {
+  return pack(clean({std::move(points), std::move(polygons)}), options);
 }
 
 }  // namespace sinew

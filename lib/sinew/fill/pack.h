@@ -50,4 +50,8 @@ struct Filling {
 /// site lies inside; all name a radius that fits, or the option that helps.
 Filling pack(const Surface& surface, const PackOptions& options);
 
+/// The same of polygons, each three corners or more, indices of points (n x 3, m): cleaned first.
+/// Throws Error (bad input) as clean() does too.
+Filling fill(Points points, std::vector<std::vector<int>> polygons, const PackOptions& options);
+
 }  // namespace sinew

@@ -15,6 +15,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/material/laws.h>
+#include <sinew/metrics/files.h>
 #include <sinew/rig/binding.h>
 #include <sinew/run/machine_columns.h>
 #include <sinew/run/run_files.h>
@@ -319,6 +320,20 @@ ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie
     input.movie = "pictures/movie.mp4";
   input.scene_text = run.scene_text;
   return input;
+}
+
+void write_tables(const RunFiles& run, const Measured& measured) {
+  const std::filesystem::path& folder = run.folder.path;
+  write_file(folder / "metrics.csv", metrics_csv(measured.frames));
+  write_file(folder / "metrics_bones.csv", bone_metrics_csv(measured.bones));
+  write_file(folder / "sections.csv", sections_csv(measured.sections));
+  write_file(folder / "metrics.json",
+             metrics_json(measured.frames, measured.summary, measured.checks));
+}
+
+void write_report(const RunFiles& run, Measured measured, MovieLink movie) {
+  write_file(run.folder.path / "report.html",
+             report_html(report_input(run, std::move(measured), movie)));
 }
 
 }  // namespace sinew

@@ -20,4 +20,11 @@ enum class MovieLink { if_there, follows };  ///< follows: it is drawn after the
 /// Throws Error (bad input) where run.json is not the record of a run.
 ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie);
 
+// The files that measuring leaves in the folder of a run. Throw not written.
+
+/// metrics.csv, metrics_bones.csv, sections.csv, metrics.json.
+void write_tables(const RunFiles& run, const Measured& measured);
+/// report.html.
+void write_report(const RunFiles& run, Measured measured, MovieLink movie);
+
 }  // namespace sinew

@@ -7,10 +7,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <sinew/body/body.h>
+#include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
 #include <sinew/mesh/surface.h>
 #include <sinew/settings/settings.h>
@@ -48,6 +50,27 @@ struct NewScene {
 /// smaller triangles. Reads and measures the files, and fills the mesh a few times. Throws bad
 /// input, with the file, for what cannot be read or filled, and for a rig without a bone.
 NewScene new_scene(const NewSceneFiles& files);
+
+// A new scene is written with the mesh that it needs: of a shape, of a rig alone, of polygons that
+// are in no file.
+
+struct NewSceneWish {
+  std::string mesh;        ///< a path, or the name of `polygons`; of a rig alone, which gets a skin
+  std::string rig = {};    ///< a path; "": the mesh's own, if it has one, or bones along limbs
+  std::string scene = {};  ///< a path; "": NAME-OF-MESH.yaml in the current directory
+  std::optional<Triangles> body = {};  ///< in place of a mesh: a shape, called `mesh`
+  bool force = false;                  ///< replace older files
+  std::optional<PolygonSoup> polygons = {};
+};
+
+struct WrittenScene {
+  std::string path;
+  std::string mesh;  ///< a file beside it that was written too; "": none
+  NewScene scene;
+};
+
+/// Throws bad input as new_scene() does, and for files that are there already; not written.
+WrittenScene write_new_scene(const NewSceneWish& wish);
 
 // What files of meshes do not say: the unit of their lengths, and where up is.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/new/written_scene.h>
+#include <sinew/scene/new/new_scene.h>
 
 #include <filesystem>
 

@@ -1,0 +1,315 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python package: meshes as arrays in, results as arrays out, without copies.
+
+usage: arrays_test.py BIN SOURCE      folder of the programs, folder of the project; PYTHONPATH names the package's
+"""
+import gc
+import json
+import sys
+import unittest
+
+import meshio
+import numpy
+import sinew
+
+from small_run import SOURCE, SmallRun
+from small_run import sinew as command
+
+
+def read_arrays(name):
+    mesh = meshio.read(SOURCE / "data/meshes" / name)
+    return mesh.points, mesh.cells_dict["triangle"]
+
+
+def tetrahedron():
+    """Three right angles at the origin, oriented outward; volume 1/6."""
+    return numpy.array([[0., 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), numpy.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def box():
+    """A unit cube of quads."""
+    V = numpy.array([[x, y, z] for z in (0., 1) for y in (0., 1) for x in (0., 1)])
+    return V, numpy.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+
+
+class Arrays(SmallRun):
+    """Meshes that are in no file."""
+
+    def test_arrays_fill_as_their_file(self):
+        V, F = read_arrays("arm.ply")
+        of_file = sinew.fill(SOURCE / "data/meshes/arm.ply", radius=0.01)
+        forms = [(V, F), (V.astype(numpy.longdouble), F.astype(numpy.uint64)), (numpy.asfortranarray(V), F[:, ::1].astype(numpy.int16)),
+                 (V.tolist(), F.tolist()), (numpy.repeat(V, 2, 0)[::2], numpy.asfortranarray(F)),
+                 (V, numpy.insert(F, 0, 3, axis=1).ravel())]  # the last as VTK has it
+        for vertices, faces in forms:
+            body = sinew.fill(vertices, faces, radius=0.01)
+            numpy.testing.assert_array_equal(body.points, of_file.points)
+            numpy.testing.assert_array_equal(body.component, of_file.component)
+            self.assertEqual(body.mass, of_file.mass)
+        V.setflags(write=False)
+        F.setflags(write=False)
+        numpy.testing.assert_array_equal(sinew.fill((V, F), radius=0.01).points, of_file.points)
+        numpy.testing.assert_array_equal(body.vertices, sinew.repair(V, F).vertices)
+
+    def test_meshes_of_other_packages(self):
+        from vtkmodules.vtkIOPLY import vtkPLYReader
+        path = SOURCE / "data/meshes/arm.ply"
+        expected = sinew.fill(path, radius=0.01).points
+        reader = vtkPLYReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        V, F = read_arrays("arm.ply")
+        like_trimesh = type("Trimesh", (), {"vertices": V, "faces": F})()
+        for mesh in (reader.GetOutput(), meshio.read(path), like_trimesh):
+            numpy.testing.assert_array_equal(sinew.fill(mesh, radius=0.01).points, expected)
+
+    def test_polygons_and_lists_of_lists(self):
+        V, quads = box()
+        expected = sinew.fill(V, [[*face] for quad in quads for face in (quad[[0, 1, 2]], quad[[0, 2, 3]])], radius=0.05)
+        mixed = [list(quad) for quad in quads[:5]] + [list(quads[5][[0, 1, 2]]), quads[5][[0, 2, 3]]]
+        for faces in (quads, mixed, numpy.array([number for face in mixed for number in (len(face), *face)])):
+            numpy.testing.assert_array_equal(sinew.fill(V, faces, radius=0.05).points, expected.points)
+
+    def test_scenes_of_arrays_run_and_write_their_mesh(self):
+        V, F = read_arrays("box.obj")
+        words = {"skeleton": {"bones": [{"name": "low", "head": [0, 0, 0], "tail": [0, 0, 0.6]}]}, "solver": {"duration": 0.01},
+                 "body": {"radius": 0.04}, "output": {"interval": 0.01}}
+        scene = sinew.make_scene(words, mesh=(V, F))
+        self.assertGreater(len(sinew.Simulation(scene).surface), 100)
+        run = sinew.simulate(scene, self.out)
+        numpy.testing.assert_array_equal(run.rest, sinew.fill(V, F, radius=0.04).points)
+        again = sinew.simulate(sinew.read_scene(self.out / "scene.yaml"), self.folder / "again")
+        numpy.testing.assert_array_equal(run[-1].positions, again[-1].positions)
+        written = next((self.out / "meshes").iterdir())
+        numpy.testing.assert_array_equal(meshio.read(written).points, V)
+
+    def test_distance_and_winding_number_in_closed_form(self):
+        V, F = tetrahedron()
+        points = numpy.random.default_rng(3).random((500, 3)) * 2 - 0.5
+        inside = (points > 0).all(1) & (points.sum(1) < 1)
+        numpy.testing.assert_allclose(sinew.winding_number(V, F, points), inside, atol=1e-12)
+        signed = sinew.distance(V, F, points, signed=True)
+        numpy.testing.assert_array_equal(signed < 0, inside)
+        depth = numpy.minimum(points.min(1), (1 - points.sum(1)) / 3 ** 0.5)  # of points inside
+        numpy.testing.assert_allclose(-signed[inside], depth[inside], atol=1e-12)
+        below = points[:, :2].min(1) > 0
+        below &= (points[:, 2] < 0) & (points[:, :2].sum(1) < 1)
+        numpy.testing.assert_allclose(sinew.distance((V, F), points[below]), -points[below, 2], atol=1e-12)
+        # One open face of a cube less: from its center a sixth of the sphere is open.
+        V, F = box()
+        self.assertAlmostEqual(sinew.winding_number(V, F[:5], [[0.5, 0.5, 0.5]])[0], 5 / 6, places=12)
+        self.assertAlmostEqual(sinew.winding_number(V, F[:5], [[1, 0.5, 0.5]])[0], 0.5, places=9)  # on the cap that is not there
+        self.assertTrue(numpy.isnan(sinew.winding_number(V, F, [[0, 0.5, 0.5]])[0]))
+
+    def test_diagnosis_says_what_is_wrong_and_where(self):
+        V, F = read_arrays("arm.ply")
+        whole = sinew.diagnose(V, F)
+        self.assertTrue(whole["closed"])
+        self.assertEqual((whole["open_edges"], len(whole.edges), whole.warnings), (0, 0, []))
+        broken = sinew.diagnose(V, numpy.vstack([F[1:100, ::-1], F[100:], [[0, 0, 1]]]))
+        self.assertEqual(broken["open_edges"], 3)
+        self.assertEqual(list(broken.edge_defects), ["open"] * 3)
+        self.assertEqual(set(broken.edges.ravel()), set(F[0]))  # vertices keep their order where none is dropped
+        self.assertEqual(broken.turned.sum(), 99)
+        self.assertEqual(broken["faces_collapsed"], 1)
+        command("info", SOURCE / "data/meshes/arm.ply", check=0)
+        told = json.loads(command("info", "--json", SOURCE / "data/meshes/arm.ply", check=0).stdout)
+        self.assertEqual(dict(sinew.info(SOURCE / "data/meshes/arm.ply")), {key: told[key] for key in told if key != "warnings"})
+        for key in whole:
+            self.assertEqual(whole[key], told[key], key)
+        drawn = whole.to_vtk()
+        self.assertEqual(drawn.GetNumberOfCells(), len(F))
+
+    def test_repair_closes_what_it_is_asked_to(self):
+        V, F = read_arrays("arm.ply")
+        vertices, faces = sinew.repair(V, F[5:], close_holes=True)
+        self.assertTrue(sinew.diagnose(vertices, faces)["closed"])
+        self.assertFalse(sinew.repair(V, F[5:]).closed)
+        welded = sinew.repair(V[F].reshape(-1, 3), numpy.arange(3 * len(F)).reshape(-1, 3))
+        self.assertEqual((len(welded.vertices), welded.closed), (len(V), True))
+        self.assertEqual(welded.changes["points_merged"], 3 * len(F) - len(V))
+
+    def test_tetrahedra_fill_the_volume(self):
+        V, F = read_arrays("box.obj")
+        cells = sinew.tetrahedra(V, F, radius=0.02)
+        corners = cells.points[cells.cells]
+        volume = numpy.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
+        self.assertTrue((volume > 0).all())
+        self.assertAlmostEqual(volume.sum() / sinew.diagnose(V, F)["volume"], 1, delta=0.01)
+
+    def test_new_and_check_are_as_the_commands(self):
+        V, F = read_arrays("box.obj")
+        made = sinew.new((V, F), scene=self.folder / "made.yaml")
+        self.assertIn("bones", made.reasons)
+        numpy.testing.assert_array_equal(meshio.read(made.mesh).points, V)
+        checked = sinew.check(made.scene, self.folder)
+        told = json.loads(command("check", made.path, "--json", check=0).stdout)
+        for key in ("particles", "mass", "young_modulus", "frames", "steps"):
+            self.assertEqual(checked[key], told[key])
+        self.assertEqual(set(checked) | {"warnings"}, set(told))
+        with self.assertRaisesRegex(sinew.Error, "there already"):
+            sinew.new((V, F), scene=made.path)
+        of_file = sinew.new(SOURCE / "data/motions/fox.glb", scene=self.folder / "fox.yaml")
+        self.assertEqual(of_file.scene.duration, sinew.read_scene(self.folder / "fox.yaml").duration)
+
+    def test_wrong_arrays_are_named(self):
+        V, F = tetrahedron()
+        nan = V.copy()
+        nan[2, 1] = numpy.nan
+        for vertices, faces, words in (
+                (V[:, :2], F, r"vertices have the shape \(4, 2\)"), (V.ravel(), F, "vertices have the shape"),
+                (nan, F, r"vertices\[2\] is too large or not finite"), (V * 1j, F, "vertices are of type complex128"),
+                (V.astype("U"), F, "vertices are of type"), (None, F, "vertices are no array"), (numpy.zeros((0, 3)), F, "vertices are empty"),
+                (V.astype(object), F, "vertices are of type object"),
+                (V, F - 1, r"faces\[0\] has the corner -1"), (V, F + 1, r"faces\[1\] has the corner 4"),
+                (V, F.astype(numpy.uint64) + 2 ** 63, "has the corner"), (V, F.astype(float), "faces are of type float64"),
+                (V, F > 0, "faces are of type bool"), (V, F[:, :2], r"faces have the shape \(4, 2\)"), (V, F[:0], "faces are empty"),
+                (V, [], "faces are empty"), (V, [[0, 1, 2], [0, 1]], r"faces\[1\] has 2 corners"), (V, None, "faces are missing"),
+                (V, [[0, 1, 2], "abc"], "faces"), (V, numpy.array([3, 0, 1]), "faces in one row"), (V, 7, "faces are 7"),
+                (V, F[None], "faces have the shape"), (V, [[0, 1, 2], [0.5, 1, 2, 3]], "faces")):
+            for use in (lambda: sinew.fill(vertices, faces, radius=0.1), lambda: sinew.tetrahedra(vertices, faces, radius=0.1)):
+                with self.assertRaisesRegex(sinew.Error, words) as raised:
+                    use()
+            self.assertEqual(raised.exception.exit_code, 2)
+        for points, words in ((V[:, :2], "points have the shape"), (nan, r"points\[2\]"), ("abc", "points")):
+            with self.assertRaisesRegex(sinew.Error, words):
+                sinew.distance(V, F, points)
+        with self.assertRaisesRegex(sinew.Error, "body.radius and body.count are both missing"):
+            sinew.fill(V, F)
+
+    def test_results_are_not_copied(self):
+        body = sinew.fill(*read_arrays("arm.ply"), radius=0.01)
+        for name in ("points", "component", "neighbors", "vertices", "faces"):
+            first, second = getattr(body, name), getattr(body, name)
+            self.assertEqual(first.ctypes.data, second.ctypes.data)
+            self.assertFalse(first.flags.writeable)
+            self.assertFalse(first.flags.owndata)
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        grid = body.to_vtk()
+        points = body.points
+        self.assertEqual(vtk_to_numpy(grid.GetPoints().GetData()).ctypes.data, points.ctypes.data)
+        del body
+        gc.collect()
+        numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetPoints().GetData()), points)
+
+
+class Results(SmallRun):
+    """Runs as arrays."""
+
+    def setUp(self):
+        super().setUp()
+        scene = sinew.read_scene(self.scene, {"body.radius": 0.04, "output.volume": True, "output.arrays": "J"})
+        self.run_ = sinew.simulate(scene, self.out)
+
+    def test_slices_and_series(self):
+        run = self.run_
+        self.assertEqual([frame.time for frame in run[3:9:2]], [run[i].time for i in (3, 5, 7)])
+        numpy.testing.assert_array_equal(run[-4:].times, run.times[-4:])
+        self.assertEqual(len(run[2:][:3][1:]), 2)
+        surfaces = run.frames("surface")
+        self.assertEqual(len(surfaces), 13)
+        numpy.testing.assert_array_equal(surfaces[5].points, run[5].surface)
+        numpy.testing.assert_array_equal(surfaces[5].cells, run.faces)
+        for series in run.series:
+            own = meshio.read(sorted((self.out / series).glob("*.vtu"))[-1])
+            numpy.testing.assert_array_equal(run[-1].dataset(series).points, own.points)
+            for name, values in own.point_data.items():
+                numpy.testing.assert_array_equal(run[-1].dataset(series)[name], values)
+        for wrong in (lambda: run[13], lambda: run[5:][9]):
+            with self.assertRaises(IndexError):
+                wrong()
+        with self.assertRaisesRegex(sinew.Error, "no series 'bonds'; take one of particles"):
+            run.frames("bonds")
+        with self.assertRaisesRegex(sinew.Error, "no array 'strss'"):
+            run[0].dataset()["strss"]
+
+    def test_any_array_by_its_name(self):
+        frame = self.run_[6]
+        for name in ("J", "velocity", "force"):  # written
+            numpy.testing.assert_array_equal(frame[name], frame.dataset()[name])
+        command("measure", self.out, "--arrays", "stress, strain", check=0)
+        measured = meshio.read(sorted((self.out / "values").glob("*.vtu"))[6])
+        for name in ("stress", "strain"):
+            numpy.testing.assert_allclose(frame.array(name), measured.point_data[name], rtol=1e-6, atol=1e-6 * abs(frame[name]).max())
+        with self.assertRaisesRegex(sinew.Error, "output.arrays: force_radial"):
+            frame["force_radial"]
+        with self.assertRaisesRegex(sinew.Error, "stress"):
+            frame["strss"]
+
+    def test_bones_and_tables(self):
+        frame = self.run_[6]
+        self.assertEqual(self.run_.bone_names, ["lower", "upper"])
+        numpy.testing.assert_allclose(frame.bone_frames[:, :3, 3], frame.dataset("frames").points, atol=1e-7)
+        self.assertEqual(frame.reactions.shape, (2, 6))
+        table = numpy.genfromtxt(self.out / "bones.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+        bones = self.run_.bones
+        numpy.testing.assert_array_equal(bones["moment_y"], table["moment_y"])
+        self.assertEqual(list(bones["bone"][:2]), ["lower", "upper"])
+        numpy.testing.assert_array_equal(self.run_.metrics["volume_error"], sinew.measure(self.out)["volume_error"])
+        try:
+            import pandas
+        except ImportError:
+            self.assertIsInstance(bones, dict)
+        else:
+            self.assertIsInstance(bones, pandas.DataFrame)
+
+    def test_vtk_has_the_same_arrays(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        frame = self.run_[-1]
+        blocks = frame.to_vtk()
+        names = [blocks.GetMetaData(i).Get(blocks.NAME()) for i in range(blocks.GetNumberOfBlocks())]
+        self.assertEqual(names, ["particles", "surface", "volume", "bones", "frames"])
+        for index, name in enumerate(names):
+            block, data = blocks.GetBlock(index), frame.dataset(name)
+            self.assertEqual(vtk_to_numpy(block.GetPoints().GetData()).ctypes.data, data.points.ctypes.data)
+            self.assertEqual(block.GetNumberOfCells(), len(data.cells) + len(data.lines))
+            for array, values in data.point_arrays.items():
+                numpy.testing.assert_array_equal(vtk_to_numpy(block.GetPointData().GetArray(array)), values)
+            for i, cell in enumerate(data.cells[:5]):
+                self.assertEqual([block.GetCell(i).GetPointId(k) for k in range(len(cell))], list(cell))
+        self.assertEqual(frame.dataset().units["velocity"], "m/s")
+
+    def test_a_simulation_has_what_its_files_would(self):
+        scene = sinew.read_scene(self.scene, {"body.radius": 0.04, "output.volume": True, "output.arrays": "J",
+                                              "output.double_precision": True})
+        simulation = sinew.Simulation(scene)
+        run = sinew.simulate(scene, self.folder / "double")
+        for index in (0, 6, 12):
+            simulation.run_until(run.times[index])
+            for series in ("particles", "surface", "bones", "frames", "volume"):
+                now, written = simulation.dataset(series), run[index].dataset(series)
+                numpy.testing.assert_array_equal(now.points, written.points)
+                self.assertEqual(set(now), set(written) - {"TimeValue", "CYCLE"})
+                for name in now:
+                    numpy.testing.assert_array_equal(now[name], written[name])
+        self.assertEqual(simulation.to_vtk().GetNumberOfBlocks(), 4)
+        with self.assertRaisesRegex(sinew.Error, "no series 'bone'"):
+            simulation.dataset("bone")
+
+    def test_what_objects_are(self):
+        body = sinew.fill(self.run_.scene)
+        for thing, words in ((self.run_, "13 frames, 0 to 0.4 s"), (self.run_[3], "Frame 3 at 0.1 s"), (self.run_[3:5], "2 of frames"),
+                             (self.run_[0].dataset("bones"), "bones at 0 s"), (body, f"{len(body)} particles of radius 0.04 m"),
+                             (self.run_.scene, "Scene of 0.4 s"), (sinew.Simulation(self.run_.scene), "2 bones"),
+                             (sinew.repair(*tetrahedron()), "4 vertices, 4 faces, closed"),
+                             (sinew.diagnose(*tetrahedron()), "closed: True")):
+            self.assertIn(words, repr(thing))
+
+    def test_packages_that_are_missing_are_named(self):
+        body, missing = sinew.fill(self.run_.scene), []
+        for module, use in (("trimesh", body.to_trimesh), ("pyvista", body.to_pyvista), ("pyvista", self.run_[0].to_pyvista)):
+            try:
+                __import__(module)
+            except ImportError:
+                missing.append(module)
+                with self.assertRaisesRegex(sinew.Error, f"{module} is not installed"):
+                    use()
+            else:
+                self.assertIsNotNone(use())
+        if missing:
+            self.skipTest(f"without {', '.join(sorted(set(missing)))}")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["arrays_test", "-v", *sys.argv[3:]])
