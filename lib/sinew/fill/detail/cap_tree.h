@@ -34,8 +34,8 @@ class CapTree {
     double clearance = std::numeric_limits<double>::infinity();  ///< no cap is closer
   };
 
-  /// Of the nodes whose distance exceeds `farness` (above 1) times their reach; near(first, last)
-  /// is called for the places in the order of all other caps.
+  /// The field of nodes whose distance exceeds `farness` (above 1) times their reach; near(first,
+  /// last) is called for the places in the order of all other caps.
   template <class Near>
   FarField far_field(const Vec3& eye, double farness, Near&& near) const {
     std::array<int, 64> waiting;  // the tree is shallower, by halving
