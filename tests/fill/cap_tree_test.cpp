@@ -89,6 +89,22 @@ TEST(CapTree, BoundsTheErrorOfTheFarField) {
   }
 }
 
+/// All area at one end of a node and across its axis, the point beyond that end: no terms cancel.
+TEST(CapTree, BoundsTheErrorClosely) {
+  const auto tiny = [](double size, double z) -> CapCorners {
+    return {Vec3(size, 0, z), Vec3(-size, size, z), Vec3(-size, -size, z)};
+  };
+  const std::vector<CapCorners> caps = {tiny(0.01, 1), tiny(0, -1)};
+  const CapTree tree(caps);
+  for (const double distance : {1.5, 2.0, 3.0, 5.0}) {
+    const Vec3 eye(0, 0, distance);
+    const auto far = tree.far_field(eye, 1.2, [](int, int) { FAIL(); });
+    const double error = std::abs(far.winding - winding_of(caps[0], eye));
+    EXPECT_LE(error, far.doubt);
+    EXPECT_GE(error, 0.9 * far.doubt);
+  }
+}
+
 TEST(CapTree, IsTheSameForAnyNumberOfThreads) {
   const auto caps = random_triangles(5000);
   const auto field = [&](int threads) {
