@@ -42,6 +42,12 @@ const Surface& open_mesh() {
   return surface;
 }
 
+/// 8,192 triangles, each apart from its neighbors: every edge is open.
+const Surface& separate_triangles() {
+  static const Surface surface = clean(shapes::burst(shapes::sphere(0.45, 5), 0.9));
+  return surface;
+}
+
 /// About `sites` in the box.
 Lattice lattice_of(double sites) {
   const Box box = bounds(closed_mesh().triangles.points);
@@ -52,7 +58,7 @@ template <class Job>
 void run(benchmark::State& state, double sites, const Job& job) {
   const auto threads = static_cast<int>(state.range(0));
   const Lattice lattice = lattice_of(sites);
-  closed_mesh(), open_mesh();
+  closed_mesh(), open_mesh(), separate_triangles();
   std::size_t inside = 0;
   with_threads(threads, [&] {
     for (auto _ : state) inside = job(lattice);
@@ -76,6 +82,12 @@ void rows_and_positions(benchmark::State& state, double sites) {
 void rows_of_open_mesh(benchmark::State& state, double sites) {
   run(state, sites, [](const Lattice& lattice) {
     return positions_of(lattice, inside_runs(lattice, open_mesh()).runs).size();
+  });
+}
+
+void rows_of_separate_triangles(benchmark::State& state, double sites) {
+  run(state, sites, [](const Lattice& lattice) {
+    return positions_of(lattice, inside_runs(lattice, separate_triangles()).runs).size();
   });
 }
 
@@ -113,6 +125,7 @@ SINEW_FILL_BENCH(rows, 1e8, 1e8);
 SINEW_FILL_BENCH(rows_and_positions, 1e6, 1e6);
 SINEW_FILL_BENCH(rows_and_positions, 1e8, 1e8);
 SINEW_FILL_BENCH(rows_of_open_mesh, 1e6, 1e6);
+SINEW_FILL_BENCH(rows_of_separate_triangles, 1e6, 1e6);
 SINEW_FILL_BENCH(cgal, 1e6, 1e6);
 SINEW_FILL_BENCH(vtk, 1e5, 1e5);
 

@@ -115,6 +115,15 @@ TEST_P(InsideRunsOfPacking, FollowsTheWindingNumberOfOpenSurfaces) {
   }
 }
 
+/// Each triangle by itself: every edge is open.
+TEST_P(InsideRunsOfPacking, FollowsTheWindingNumberOfSeparateTriangles) {
+  for (const double size : {0.98, 0.85, 0.75}) {
+    const Surface surface = clean(shapes::burst(shapes::bumpy_ball(3), size));
+    ASSERT_EQ(surface.border.edges, 3 * surface.triangles.faces.size());
+    EXPECT_EQ(wrong_sites(surface, lattice_about(surface, GetParam(), 0.05)), 0u);
+  }
+}
+
 /// Rows that meet the border's edges and corners, and lie in the plane of a hole.
 TEST_P(InsideRunsOfPacking, FollowsTheWindingNumberWhereSitesAreOnTheBorder) {
   const Vec3 wide = Vec3::Constant(1.01);

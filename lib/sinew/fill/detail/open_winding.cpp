@@ -10,9 +10,9 @@ namespace sinew {
 
 namespace {
 
-constexpr int caps_in_a_leaf = 4;
-
-Vec3 area_of(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
+// The rounding error of a solid angle is small farther than `close` of the size from its corners,
+// and not too near the triangle or its sides.
+constexpr double close = 1e-5, oblique = 1e-3, rounding_doubt = 1e-6;
 
 /// Distance of the origin from the segment a b.
 double distance(const Vec3& a, const Vec3& b) {
@@ -22,7 +22,13 @@ double distance(const Vec3& a, const Vec3& b) {
   return (a + at * edge).norm();
 }
 
-Vec3 middle_of(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
+std::vector<CapCorners> turned(const RowFrame& frame, const Triangles& caps) {
+  std::vector<CapCorners> result;
+  for (const auto& [a, b, c] : caps.faces)
+    result.push_back(
+        {frame.turned(caps.points[a]), frame.turned(caps.points[b]), frame.turned(caps.points[c])});
+  return result;
+}
 
 }  // namespace
 
@@ -40,16 +46,17 @@ OpenWinding::OpenWinding(const Lattice& lattice, const Triangles& caps,
       crossings_(crossings),
       frame_(lattice),
       side_(lattice, largest_coordinate(lattice, caps.points)),
-      sorted_(caps.faces.size()),
-      place_(caps.faces.size()) {
-  for (std::size_t i = 0; i < sorted_.size(); ++i) {
-    sorted_[i].face = static_cast<int>(i);
+      tree_(turned(frame_, caps)) {
+  for (const int face : tree_.order()) {
+    Cap cap{{}, {}, 0, face};
     for (int corner = 0; corner < 3; ++corner)
-      sorted_[i].corners[corner] = frame_.turned(caps.points[caps.faces[i][corner]]);
+      cap.corners[corner] = frame_.turned(caps.points[caps.faces[face][corner]]);
+    for (int corner = 0; corner < 3; ++corner)
+      cap.half_side =
+          std::max(cap.half_side, (cap.corners[(corner + 1) % 3] - cap.corners[corner]).norm() / 2);
+    sorted_.push_back(cap);
   }
   find_border();
-  if (!sorted_.empty()) build(0, static_cast<int>(sorted_.size()));
-  for (std::size_t i = 0; i < sorted_.size(); ++i) place_[sorted_[i].face] = static_cast<int>(i);
 }
 
 /// A side that no other cap traverses in the other direction.
@@ -66,56 +73,22 @@ void OpenWinding::find_border() {
     }
 }
 
-/// Halves by the order of the centers along the longest side of their box; ties by the file's
-/// order.
-int OpenWinding::build(int first, int last) {
-  const int index = static_cast<int>(nodes_.size());
-  nodes_.push_back(summary(first, last));
-  if (last - first <= caps_in_a_leaf) return index;
-  Box box;
-  for (int i = first; i < last; ++i) box.extend(middle_of(sorted_[i].corners));
-  int axis = 0;
-  box.sizes().maxCoeff(&axis);
-  const int half = first + (last - first) / 2;
-  std::nth_element(sorted_.begin() + first, sorted_.begin() + half, sorted_.begin() + last,
-                   [axis](const Cap& a, const Cap& b) {
-                     const double at = middle_of(a.corners)[axis], bt = middle_of(b.corners)[axis];
-                     return at < bt || (at == bt && a.face < b.face);
-                   });
-  const int left = build(first, half), right = build(half, last);
-  nodes_[index].left = left;
-  nodes_[index].right = right;
-  return index;
-}
-
-OpenWinding::Node OpenWinding::summary(int first, int last) const {
-  Node node{first, last, -1, -1, Vec3::Zero(), 0, Vec3::Zero(), 0, Mat3::Zero()};
-  Box box;
-  for (int i = first; i < last; ++i)
-    for (const Vec3& corner : sorted_[i].corners) box.extend(corner);
-  node.center = box.center();
-  for (int i = first; i < last; ++i) {
-    const Vec3 area = area_of(sorted_[i].corners);
-    node.area += area;
-    node.size += area.norm();
-    node.moment += (middle_of(sorted_[i].corners) - node.center) * area.transpose();
-    for (const Vec3& corner : sorted_[i].corners)
-      node.reach = std::max(node.reach, (corner - node.center).norm());
-  }
-  return node;
-}
-
 OpenWinding::Contribution OpenWinding::contribution(std::size_t row, int site) const {
-  double doubt = 0;
-  return sum(view(row, site), std::numeric_limits<double>::infinity(), doubt);
+  const View from = view(row, site);
+  Contribution all{0, std::numeric_limits<double>::infinity()};
+  for (const Cap& cap : sorted_) {
+    const Contribution one = strips(from, cap);
+    all = {all.value + one.value, std::min(all.clearance, one.clearance)};
+  }
+  return all;
 }
 
 OpenWinding::Contribution OpenWinding::contribution(std::size_t row, int site,
                                                     const Enough& enough) const {
   const View from = view(row, site);
-  double farness = 3;
-  for (int attempt = 0; attempt < 6; ++attempt, farness *= 1.7) {
-    double doubt = 0;
+  double farness = 2;
+  for (int attempt = 0; attempt < 5; ++attempt, farness *= 1.6) {
+    double doubt = rounding_doubt;
     const Contribution found = sum(from, farness, doubt);
     if (doubt < enough.doubt || std::abs(found.value - enough.threshold) > 3 * doubt) return found;
   }
@@ -128,46 +101,49 @@ OpenWinding::View OpenWinding::view(std::size_t row, int site) const {
 }
 
 OpenWinding::Contribution OpenWinding::sum(const View& view, double farness, double& doubt) const {
-  std::array<int, 64> waiting;  // the tree is shallower, by halving
-  int count = 0;
-  Contribution all{0, std::numeric_limits<double>::infinity()};
-  waiting[count++] = 0;
-  while (count > 0) {
-    const Node& node = nodes_[waiting[--count]];
-    const Vec3 to = node.center - view.eye;
-    const double distance = to.norm();
-    if (distance > farness * node.reach && distance > 0) {
-      all.value += before(view, node.first, node.last) - from_afar(node, to, distance);
-      const double nearest = distance - node.reach, square = nearest * nearest;
-      all.clearance = std::min(all.clearance, nearest);
-      doubt += 3 * node.reach * node.reach * node.size / (4 * pi * square * square);
-    } else if (node.left < 0) {
-      for (int i = node.first; i < node.last; ++i) {
-        const Contribution one = strips(view, sorted_[i]);
-        all = {all.value + one.value, std::min(all.clearance, one.clearance)};
-      }
-    } else {
-      waiting[count++] = node.right;
-      waiting[count++] = node.left;
-    }
+  Contribution near{0, std::numeric_limits<double>::infinity()};
+  const CapTree::FarField far = tree_.far_field(view.eye, farness, [&](int first, int last) {
+    for (int i = first; i < last; ++i) add_near(view, i, near);
+  });
+  doubt += far.doubt;
+  return {before(view) - far.winding + near.value, std::min(near.clearance, far.clearance)};
+}
+
+/// Subtracts the solid angle of a cap (van Oosterom and Strackee 1983); of one whose side rounding
+/// might confuse, by its strips.
+void OpenWinding::add_near(const View& view, int place, Contribution& sum) const {
+  const Cap& cap = sorted_[place];
+  const Vec3 a = cap.corners[0] - view.eye, b = cap.corners[1] - view.eye,
+             c = cap.corners[2] - view.eye;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm(), size = la * lb * lc;
+  const double turn = a.dot(b.cross(c));
+  const double ahead = size + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+  if (std::min({la, lb, lc}) > close * side_.extent() &&
+      std::abs(turn) + std::max(ahead, 0.0) > oblique * size) {
+    sum.value -= std::atan2(turn, ahead) / (2 * pi);
+  } else {
+    sum.value += strips(view, cap).value - before(view, cap.face);
   }
-  return all;
+  if (std::min({la, lb, lc}) - cap.half_side < sum.clearance) {
+    const CapCorners to = {a, b, c};
+    for (int corner = 0; corner < 3; ++corner)
+      if (cap.border[corner])
+        sum.clearance = std::min(sum.clearance, distance(to[corner], to[(corner + 1) % 3]));
+  }
 }
 
-/// The caps' own winding number, from the moments of their areas.
-double OpenWinding::from_afar(const Node& node, const Vec3& to, double distance) {
-  const double cube = distance * distance * distance;
-  const double first = node.area.dot(to) / cube;
-  const double second =
-      node.moment.trace() / cube - 3 * to.dot(node.moment * to) / (cube * distance * distance);
-  return (first + second) / (4 * pi);
-}
-
-int OpenWinding::before(const View& view, int first, int last) const {
+/// Signed crossings of the row with all caps, up to the site.
+int OpenWinding::before(const View& view) const {
   int sum = 0;
   for (const Crossing& one : crossings_.of(view.row))
-    if (one.site <= view.site && place_[one.face] >= first && place_[one.face] < last)
-      sum += one.winding;
+    if (one.site <= view.site) sum += one.winding;
+  return sum;
+}
+
+int OpenWinding::before(const View& view, int face) const {
+  int sum = 0;
+  for (const Crossing& one : crossings_.of(view.row))
+    if (one.site <= view.site && one.face == face) sum += one.winding;
   return sum;
 }
 
@@ -298,7 +274,7 @@ void OpenSweep::add_between(std::size_t row, int first, int last, int sum, RowRu
   if (first >= last) return;
   const std::vector<int> sites = doubling_from_both_ends(first, last);
   const auto look = [&](int site) {
-    const auto [value, clearance] = winding_.contribution(row, site, {0.001, 0.5 - sum});
+    const auto [value, clearance] = winding_.contribution(row, site, {0, 0.5 - sum});
     return Looked{site, sum - 0.5 + value, clearance / (2 * lattice_.radius)};
   };
   Looked before = look(sites[0]);

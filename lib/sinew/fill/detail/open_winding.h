@@ -6,15 +6,18 @@
 //   S(q) = 1 / (4 pi) sum over a cap's sides ab of 2 atan2(D, N),  with A = a - q, B = b - q,
 //   D = A_v B_w - A_w B_v,  N = |A||B| + A.B + A_u |B| + B_u |A|,
 // (u along the row, v across, w up): the solid angle of the strips that extend from the cap's sides
-// backward along the row. S jumps only on those strips, where no row lies. Distant caps are
-// combined, by the first two moments of their areas (Barill et al. 2018), with a bound on the
-// error; where that bound is too large each cap is evaluated by itself.
+// backward along the row. S jumps only on those strips, where no row lies. It is also the signed
+// crossing of the cap before q less the cap's solid angle: so for all caps, those nearby one by one
+// (by one arc tangent), distant ones combined in a tree, with a bound on the error. Where that
+// bound is too large each cap is evaluated by its strips, which are right also for points in its
+// plane.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include <sinew/core/triangles.h>
+#include <sinew/fill/detail/cap_tree.h>
 #include <sinew/fill/lattice.h>
 #include <sinew/fill/row_crossings.h>
 #include <sinew/fill/runs.h>
@@ -27,7 +30,7 @@ class OpenWinding {
   /// All arguments must outlive this. `crossings` are those of the caps.
   OpenWinding(const Lattice& lattice, const Triangles& caps, const RowCrossings& crossings);
 
-  bool none() const { return nodes_.empty(); }
+  bool none() const { return sorted_.empty(); }
 
   struct Contribution {
     double value;      ///< contribution of the caps to the winding number
@@ -45,31 +48,21 @@ class OpenWinding {
   Contribution contribution(std::size_t row, int site, const Enough& enough) const;
 
  private:
-  /// Far-field expansion of caps first .. last - 1. Lengths in the frame of the rows.
-  struct Node {
-    int first, last;
-    int left, right;  ///< nodes; -1: a leaf
-    Vec3 center;
-    double reach;  ///< of the farthest corner from the center
-    Vec3 area;     ///< sum of the caps' vector areas
-    double size;   ///< sum of their areas
-    Mat3 moment;   ///< sum of (middle - center) area^T
-  };
   struct Cap {
-    std::array<Vec3, 3> corners;
+    CapCorners corners;
     std::array<bool, 3> border;  ///< which sides are the surface's border, not another cap's side
+    double half_side;            ///< half of the longest side
     int face;
   };
   struct View;  ///< one site with its row
   struct Ray;
 
   void find_border();
-  int build(int first, int last);
-  Node summary(int first, int last) const;
   View view(std::size_t row, int site) const;
   Contribution sum(const View& view, double farness, double& doubt) const;
-  static double from_afar(const Node& node, const Vec3& to, double distance);
-  int before(const View& view, int first, int last) const;
+  void add_near(const View& view, int place, Contribution& sum) const;
+  int before(const View& view) const;
+  int before(const View& view, int face) const;
   Contribution strips(const View& view, const Cap& cap) const;
   Ray ray(const View& view, const Vec3& corner) const;
   double turn(const View& view, const Cap& cap, int corner, const Ray& a, const Ray& b) const;
@@ -79,9 +72,8 @@ class OpenWinding {
   const RowCrossings& crossings_;
   RowFrame frame_;
   RowSide side_;
-  std::vector<Cap> sorted_;
-  std::vector<int> place_;  ///< of each cap in sorted_
-  std::vector<Node> nodes_;
+  CapTree tree_;
+  std::vector<Cap> sorted_;  ///< in the order of the tree
 };
 
 // Finds the sites inside an open surface, whose winding number along a row jumps at crossings and
