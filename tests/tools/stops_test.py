@@ -62,7 +62,7 @@ class Stops(SmallRun):
 
     def everything(self, folder):
         return {file.relative_to(folder): file.read_bytes() for name in SERIES
-                for file in [*(folder / name).iterdir(), folder / f"{name}.pvd", folder / "bones.csv"]}
+                for file in [*(folder / name).iterdir(), folder / f"{name}.pvd", folder / f"{name}.vtu.series", folder / "bones.csv"]}
 
     def assert_same_as_unbroken(self, *words):
         whole = self.folder / "whole"
