@@ -104,15 +104,12 @@ without_each() {
 make_bare_root "$suite"
 took SECONDS root
 stage clone clone
-[ -z "$objects" ] || stage objects seed_objects "$objects"
-stage demo in_clone tools/demo.sh
 if [ -n "$objects" ]; then
-  stage headers same_compilation
-  if [ -s "$logs/differ" ]; then
-    echo "bare.sh: $(wc -l < "$logs/differ") files that compilers read are others than here; all is compiled there" >&2
-    stage demo_anew in_clone "rm -r build && tools/demo.sh"
-  fi
+  stage packages packages
+  stage objects seed_objects "$objects"
 fi
+stage demo in_clone tools/demo.sh
+[ -z "$objects" ] || compiled_anew
 stage own_mesh own_mesh
 stage files check_runs
 stage paraview in_root apt-get -qq install -y --no-install-recommends paraview
