@@ -137,9 +137,10 @@ class Runs(SmallRun):
         done = sinew("export", self.out, "--to", "volume", "--json", check=0)
         self.assertEqual(json.loads(done.stdout)["frames"], len(self.frames(self.out)))
         self.assertIn("volume.pvd", (self.out / "checksums.sfv").read_text())
+        self.assertIn("volume.vtu.series", (self.out / "checksums.sfv").read_text())
         self.assertEqual(sinew("info", self.out, "--verify").returncode, 0)
         self.simulate("--force")
-        self.assertFalse((self.out / "volume.pvd").exists())
+        self.assertEqual(list(self.out.glob("volume.*")), [])
         self.assertFalse((self.out / "volume").exists() and list((self.out / "volume").iterdir()))
 
     def test_a_killed_run_goes_on_with_the_same_cells(self):
