@@ -82,8 +82,7 @@ bool is_of_the_run(const std::filesystem::path& target, const std::string& folde
   return std::mismatch(run.begin(), run.end(), given.begin(), given.end()).first == run.end();
 }
 
-void refuse_target(const std::filesystem::path& target, const Options& options,
-                   const ParticleFormat& format, bool folder) {
+void refuse_target(const std::filesystem::path& target, const Options& options, bool folder) {
   if (is_of_the_run(target, options.folder))
     throw bad_input(Place{target.string()}, "is of the run itself, and would be replaced",
                     "give another name with -o");
@@ -93,7 +92,10 @@ void refuse_target(const std::filesystem::path& target, const Options& options,
                     "name a folder with -o, or one time with --times");
   if (!folder && is_folder)
     throw bad_input(Place{target.string()}, "is a folder", "name a file with -o");
-  if (!folder) format_of(std::string(format.name), target);
+  if (is_folder || !std::filesystem::exists(target)) return;
+  if (is_scene(target))
+    throw bad_input(Place{target.string()}, "is a scene, and would be replaced",
+                    "give another name with -o");
 }
 
 void print(const ExportedFrames& done, const RunFiles& run, const std::vector<std::size_t>& frames,
@@ -136,7 +138,7 @@ Exit export_scene(const Options& options, const Common& common) {
   const std::filesystem::path target =
       options.output.empty() ? scene.stem().string() + ".inp" : options.output;
   const Settings settings = with_fit(read_scene(scene, common.overrides));
-  refuse_output(target.string(), {options.folder, settings.body.mesh}, ".inp");
+  refuse_output(target.string(), {options.folder, settings.body.mesh}, target.extension().string());
   const Deck deck = deck_of(settings, read_mesh(settings), options.elements);
   write_deck(target, deck);
   print(deck, target, common);
@@ -184,7 +186,7 @@ Exit export_run(const Options& options, const Common& common) {
   const std::filesystem::path target = options.output.empty()
                                            ? default_target(options, format, folder)
                                            : std::filesystem::path(options.output);
-  refuse_target(target, options, format, folder);
+  refuse_target(target, options, folder);
   print(export_frames(run, format, frames, target), run, frames, target, common);
   return Exit::done;
 }

@@ -1,39 +1,45 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bare.sh [--suite trixie] [--tests] [--without-each]: what the README says first, on a machine that has never seen
-# the project: a bare root of Debian 12 (bookworm) or another release, as bare_root.sh makes it. There it builds this
-# checkout's commit with tools/demo.sh, runs a scene of a mesh, installs ParaView and looks at both runs with it.
-# --tests runs tests/run.sh as well; --without-each breaks optional packages, each in turn, and configures.
+# bare.sh [--suite trixie] [--tests] [--without-each] [--objects BUILD]: what the README says first, on a machine that
+# has never seen the project: a bare root of Debian 12 (bookworm) or another release, as bare_root.sh makes it. There
+# it builds this checkout's commit with tools/demo.sh, runs a scene of a mesh, installs ParaView and looks at both runs
+# with it. --tests runs tests/run.sh as well; --without-each breaks optional packages, each in turn, and configures.
+# --objects spares compiling again what a finished build of this checkout has compiled: see object_files.sh.
 # Logs and what ParaView shows are left in build/bare/SUITE. As root; takes a quarter of an hour and 5 GB.
 set -euo pipefail
 
 . "$(dirname "${BASH_SOURCE[0]}")/bare_root.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/object_files.sh"
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-suite=bookworm also=()
+suite=bookworm also=() objects=
 while [ $# -gt 0 ]; do
   case $1 in
     --suite) suite=${2:?--suite of what?}; shift ;;
     --tests) also+=(tests) ;;
     --without-each) also+=(without_each) ;;
-    *) echo "bare.sh: '$1' is none of --suite SUITE, --tests, --without-each" >&2; exit 2 ;;
+    --objects) objects=$(realpath -e "${2:?--objects of which build?}"); shift ;;
+    *) echo "bare.sh: '$1' is none of --suite SUITE, --tests, --without-each, --objects BUILD" >&2; exit 2 ;;
   esac
   shift
 done
 logs=$PWD/build/bare/$suite
 mkdir -p "$logs"
 own=/root/own/two_fingers
+clone=${objects:+$PWD}  # compilers are told absolute paths
+clone=${clone:-/root/sinew}
 
 fail() {
   echo "$*" >&2
   exit 1
 }
 
-in_clone() { in_root sh -c "cd /root/sinew && $1"; }
+in_clone() { in_root sh -c "cd '$clone' && $1"; }
 
 clone() {
   git -c safe.directory="$PWD" diff --quiet HEAD || echo "bare.sh: changes that are not committed are left out" >&2
-  in_root rm -rf /root/sinew /root/own
-  git -c safe.directory="$PWD" archive --prefix=root/sinew/ HEAD | tar -x -C "$root"
+  in_root rm -rf "$clone" /root/own
+  mkdir -p "$root$clone"
+  git -c safe.directory="$PWD" archive HEAD | tar -x -C "$root$clone"
 }
 
 own_mesh() {
@@ -59,7 +65,7 @@ check_run() {
 }
 
 check_runs() {
-  check_run /root/sinew/out/box_bend
+  check_run "$clone/out/box_bend"
   check_run "$own"
 }
 
@@ -98,7 +104,12 @@ without_each() {
 make_bare_root "$suite"
 took SECONDS root
 stage clone clone
+if [ -n "$objects" ]; then
+  stage packages packages
+  stage objects seed_objects "$objects"
+fi
 stage demo in_clone tools/demo.sh
+[ -z "$objects" ] || compiled_anew
 stage own_mesh own_mesh
 stage files check_runs
 stage paraview in_root apt-get -qq install -y --no-install-recommends paraview

@@ -92,6 +92,9 @@ def files_of(out):
 
 def assert_series_are_sound(out):
     """At any moment: every row leads to a whole file, and times ascend."""
+    for series in out.glob("*.vtu.series"):
+        for row in json.loads(series.read_text())["files"]:
+            assert (out / row["name"]).exists(), f"{series} names {row['name']}, which is not there"
     for pvd in out.glob("*.pvd"):
         text = pvd.read_text()
         assert text.endswith("</VTKFile>\n"), f"{pvd} is torn"

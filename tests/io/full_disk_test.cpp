@@ -77,4 +77,27 @@ TEST_F(FullDisk, SeriesKeepsTheFramesItHas) {
   EXPECT_EQ(read_pvd(folder / "bones.pvd").size(), 1u);
 }
 
+TEST_F(FullDisk, ListsOfASeriesStayWhole) {
+  const SyntheticRun run;
+  const VtuFormat format{Encoding::raw, false, "bones", 0.01};
+  std::vector<double> times;
+  {
+    Series series(folder, format);
+    for (int i = 0; i < 60; ++i) series.add(run.bones({i / 60.0, i}));
+  }
+  for (int i = 0; i < 40; ++i) times.push_back(i / 60.0);
+  const auto expect_last = [&](const char* last, const char* later) {
+    for (const std::string& list : series_files("bones")) {
+      EXPECT_TRUE(contains(text_of(folder / list), last)) << list;
+      EXPECT_FALSE(contains(text_of(folder / list), later)) << list;
+    }
+  };
+  limit(1000);
+  EXPECT_EQ(error_of([&] { Series(folder, format, times); }).exit(), Exit::not_written);
+  limit(RLIM_INFINITY);
+  expect_last("000059", "000060");
+  Series(folder, format, times);
+  expect_last("000039", "000040");
+}
+
 }  // namespace sinew::full_disk_test

@@ -210,7 +210,8 @@ TEST_F(ParticleFormats, AreFoundByNameAndExtension) {
   expect_bad_input([] { format_of("", "a.txt"); }, {"yade", "peridigm", "--to"});
   expect_bad_input([] { format_of("", "a.foo"); }, {"a.foo", "lammps, dump"});
   expect_bad_input([] { format_of("lamps", "a.data"); }, {"lamps", "lammps?"});
-  expect_bad_input([] { format_of("csv", "a.obj"); }, {"a.obj", ".csv"});
+  for (const char* any : {"a.obj", "a", ".b", "a.csv.txt"})
+    EXPECT_EQ(format_of("csv", any).name, "csv") << any;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include <sinew/core/file.h>
@@ -35,6 +36,34 @@ TEST_F(SeriesFiles, PvdHasOneRowPerTimeInItsShortestText) {
 )");
 }
 
+TEST_F(SeriesFiles, SeriesFileHasTheRowsOfThePvd) {
+  const SyntheticRun run;
+  Series series(folder / "run", bones_format());
+  for (const double time : {0.0, 0.1, 1.0 / 3}) series.add(run.bones({time, 0}));
+  series.close();
+  EXPECT_EQ(text_of(folder / "run" / "bones.vtu.series"),
+            R"({"file-series-version": "1.0", "files": [
+  {"name": "bones/bones_000000.vtu", "time": 0},
+  {"name": "bones/bones_000001.vtu", "time": 0.1},
+  {"name": "bones/bones_000002.vtu", "time": 0.3333333333333333}
+]}
+)");
+}
+
+TEST_F(SeriesFiles, SeriesFileOfAnyTimesIsJson) {
+  for (const std::vector<PvdRow>& rows :
+       {std::vector<PvdRow>{},
+        {{1e-300, "a/a_000000.vtu"}, {0.1 + 0.2, "a/a_000001.vtu"}, {1e22, "a/a_000002.vtu"}}}) {
+    const auto read = nlohmann::json::parse(series_text(rows));
+    EXPECT_EQ(read.at("file-series-version"), "1.0");
+    ASSERT_EQ(read.at("files").size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_EQ(read.at("files")[i].at("name"), rows[i].file);
+      EXPECT_EQ(read.at("files")[i].at("time").get<double>(), rows[i].time);
+    }
+  }
+}
+
 /// A run may have a million.
 TEST_F(SeriesFiles, APvdOfAnyRunCanBeReadAgain) {
   constexpr std::size_t frames = 1'000'000;
@@ -61,13 +90,22 @@ TEST_F(SeriesFiles, RowsLeadToTheFramesTheyName) {
   }
 }
 
-TEST_F(SeriesFiles, ThePvdNeverNamesAFrameThatIsNotThere) {
+std::vector<std::string> named_in_series(const std::filesystem::path& list) {
+  std::vector<std::string> names;
+  const auto read = nlohmann::json::parse(read_file(list));
+  for (const auto& file : read.at("files")) names.push_back(file.at("name"));
+  return names;
+}
+
+TEST_F(SeriesFiles, NoListNamesAFrameThatIsNotThere) {
   const SyntheticRun run;
   Series series(folder, bones_format());
   for (int i = 0; i < 20; ++i) {
     series.add(run.bones({i / 3.0, i}));
     for (const PvdRow& row : read_pvd(folder / "bones.pvd"))
       EXPECT_TRUE(std::filesystem::exists(folder / row.file));
+    for (const std::string& file : named_in_series(folder / "bones.vtu.series"))
+      EXPECT_TRUE(std::filesystem::exists(folder / file));
   }
 }
 
@@ -112,12 +150,14 @@ TEST_F(SeriesFiles, GoesOnAfterTheFramesThatAreKept) {
   {
     Series series(folder, bones_format(), times);
     EXPECT_EQ(read_pvd(folder / "bones.pvd").size(), 2u);  // at once: the others are gone
+    EXPECT_EQ(named_in_series(folder / "bones.vtu.series").size(), 2u);
     EXPECT_FALSE(std::filesystem::exists(folder / "bones/bones_000002.vtu"));
     series.add(run.bones({1, 2}));
   }
   const auto rows = read_pvd(folder / "bones.pvd");
   ASSERT_EQ(rows.size(), 3u);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(rows[i].time, i / 2.0);
+  EXPECT_EQ(named_in_series(folder / "bones.vtu.series").size(), 3u);
   std::filesystem::remove(folder / "bones/bones_000001.vtu");
   const Error error = error_of([&] { Series(folder, bones_format(), times); });
   EXPECT_EQ(error.exit(), Exit::bad_input);
@@ -129,11 +169,12 @@ TEST_F(SeriesFiles, AStartRemovesTheOlderSeriesAndNothingElse) {
   for (const char* ours : {"bones_000007.vtu", ".bones_000008.vtu.tmp"})
     put(folder / "bones" / ours, "");
   put(folder / "bones" / "notes.txt", "kept");
-  put(folder / "bones.pvd", "older");
+  for (const std::string& list : series_files("bones")) put(folder / list, "older");
   Series series(folder, bones_format());
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "bones"), {}), 1);
   EXPECT_TRUE(std::filesystem::exists(folder / "bones" / "notes.txt"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "bones.pvd"));
+  for (const std::string& list : series_files("bones"))
+    EXPECT_FALSE(std::filesystem::exists(folder / list));
 }
 
 TEST_F(SeriesFiles, RemovesFramesAndTheirBeginningsByTheirWholeName) {

@@ -212,13 +212,18 @@ probes:
         self.write(PULL, mesh=BOX.replace("f 4 1 5 8\n", ""))
         self.assert_one_line(sinew("export", self.scene, "--to", "calculix"), 2, "open", "close_holes")
 
+    def test_a_deck_takes_any_file_name(self):
+        self.write(PULL)
+        sinew("export", self.scene, "--to", "calculix", "-o", self.folder / "bar.deck", check=0)
+        self.assertEqual((self.folder / "bar.deck").read_bytes(), self.deck().read_bytes())
+
     def test_options_that_do_not_fit_are_refused(self):
         self.write(PULL)
         for words, parts in (
                 (["--to", "calculix", "--size", "-1"], ["--size is -1"]),
                 (["--to", "calculix", "--size", "1e-5"], ["elements", "--size"]),
                 (["--to", "calculix", "--times", "1"], ["--times", "output.interval"]),
-                (["--to", "calculix", "-o", "a.xyz"], [".inp"]),
+                (["--to", "calculix", "-o", self.scene], ["is an input"]),
                 (["--to", "xyz"], ["is a scene", "folder of the run"])):
             self.assert_one_line(sinew("export", self.scene, *words), 2, *parts)
         self.assert_one_line(sinew("export", self.folder, "--to", "calculix"), 2, "is no scene", "DIR/scene.yaml")

@@ -22,8 +22,8 @@ CONTROL = "\x9b31m"
 class Links(SmallRun):
     """What a run folder from elsewhere may contain: links that lead to files of the user."""
     FILES = [".report.html.tmp", ".metrics.csv.tmp", ".metrics_bones.csv.tmp", ".metrics.json.tmp", ".run.json.tmp"]
-    OF_RUN = [".body.vtu.tmp", ".scene.yaml.tmp", ".view.py.tmp", ".view.pvsm.tmp", ".particles.pvd.tmp", "bones.csv",
-              "log.txt", "checksums.sfv", "probes.csv", "particles/.particles_000000.vtu.tmp", ".run.json.tmp",
+    OF_RUN = [".body.vtu.tmp", ".scene.yaml.tmp", ".view.py.tmp", ".view.pvsm.tmp", ".particles.pvd.tmp", ".particles.vtu.series.tmp",
+              "bones.csv", "log.txt", "checksums.sfv", "probes.csv", "particles/.particles_000000.vtu.tmp", ".run.json.tmp",
               "checkpoint/.a.bin.tmp"]
 
     def setUp(self):

@@ -229,6 +229,18 @@ json.dump({{"places": [list(b.state.pos) for b in O.bodies], "mass": sum(b.state
             self.assertIn(" ".join(names), text)
             self.assertIn("tetrahedra", text)
 
+    def test_a_named_format_takes_any_file_name(self):
+        for to, usual, name in (("lammps", "a.data", "b.lammps"), ("csv", "a.csv", "b"), ("xyz", "a.xyz", "b.data"),
+                                ("bgeo", "a.bgeo", "b.x.obj"), ("vtu", "a.vtu", "b.dump"), ("gltf", "a.glb", "b.")):
+            usual = self.fill(to, usual).read_bytes()
+            before = set(self.folder.iterdir())
+            self.assertEqual(self.fill(to, name).read_bytes(), usual, to)
+            self.assertEqual({path.name for path in set(self.folder.iterdir()) - before}, {name})
+        copy = self.folder / "copy.obj"
+        copy.write_bytes(Path(self.mesh).read_bytes())
+        self.assert_one_line(sinew("fill", copy, "--radius", 0.03, "--to", "lammps", "-o", copy), 2, "is an input")
+        self.assertEqual(copy.read_bytes(), Path(self.mesh).read_bytes())
+
     def test_names_are_checked(self):
         self.assert_one_line(sinew("fill", self.mesh, "--radius", 0.03, "-o", self.folder / "a.txt"), 2, "yade",
                              "peridigm")
@@ -338,6 +350,14 @@ class Exported(SmallRun):
         self.export("--times", "0.2", "-o", "one.glb")
         self.near(read_glb(self.folder / "one.glb")[0], 2)
 
+    def test_a_named_format_takes_any_file_name(self):
+        for name in ("one.data", "one.lammps", "one"):
+            self.export("--to", "lammps", "--times", "0.2", "-o", name)
+            self.assertEqual((self.folder / name).read_bytes(), (self.folder / "one.data").read_bytes())
+        self.export("--to", "xyz", "-o", "all.frames")
+        self.export("--to", "xyz", "-o", "all.xyz")
+        self.assertEqual((self.folder / "all.frames").read_bytes(), (self.folder / "all.xyz").read_bytes())
+
     def test_what_cannot_be_exported(self):
         self.assert_one_line(self.export(check=2), 2, "--to")
         self.assert_one_line(self.export("--to", "csv", "--times", 0.9, check=2), 2, "0.9", "to 0.4")
@@ -349,7 +369,7 @@ class Exported(SmallRun):
         self.export("--to", "csv", "-o", "run/tables")
         self.assert_one_line(self.export("--to", "csv", "-o", self.scene, check=2), 2, "no folder")
         self.assert_one_line(self.export("--to", "csv", "--times", 0, "-o", ".", check=2), 2, "is a folder")
-        self.assert_one_line(self.export("--to", "csv", "--times", 0, "-o", self.scene, check=2), 2, ".csv")
+        self.assert_one_line(self.export("--to", "csv", "--times", 0, "-o", self.scene, check=2), 2, "is a scene")
         self.assert_one_line(sinew("export", self.folder, "--to", "csv"), 2, "folder of a run")
 
 

@@ -49,14 +49,14 @@ class Input(SmallRun):
         done = sinew("info", self.out, "--verify", "--json", check=0)
         found = json.loads(done.stdout)
         self.assertEqual((found["damaged"], found["missing"]), ([], []))
-        self.assertEqual(found["verified"], 4 * 13 + 4 + 3)  # frames, PVDs; body, scene, bones.csv
+        self.assertEqual(found["verified"], 4 * 13 + 2 * 4 + 3)  # frames, lists of them; body, scene, bones.csv
         flipped, gone = self.out / "particles/particles_000003.vtu", self.out / "frames/frames_000007.vtu"
         bits = bytearray(flipped.read_bytes())
         bits[len(bits) // 2] ^= 1
         flipped.write_bytes(bits)
         gone.unlink()
         done = sinew("info", self.out, "--verify")
-        self.assert_one_line(done, 2, "2 of 59 files", "--force")
+        self.assert_one_line(done, 2, "2 of 63 files", "--force")
         self.assertIn("damaged: particles/particles_000003.vtu\n", done.stdout)
         self.assertIn("missing: frames/frames_000007.vtu\n", done.stdout)
         self.simulate("--force")

@@ -87,6 +87,21 @@ class Series(unittest.TestCase):
             self.assertEqual([time for time, _ in rows_of(series)], times, series)
             self.assertEqual(list(opened(series).TimestepValues), times, series)
 
+    def test_series_file_opens_as_the_pvd_does(self):
+        for series in SERIES:
+            pvd, listed = opened(series), OpenDataFile(os.path.join(RUN, series + ".vtu.series"))
+            times = [time for time, _ in rows_of(series)]
+            self.assertEqual(list(listed.TimestepValues), times, series)
+            for time in (times[0], times[-1]):
+                one, other = fetched(pvd, time), fetched(listed, time)
+                self.assertEqual(bytes(memoryview(one.GetPoints().GetData())),
+                                 bytes(memoryview(other.GetPoints().GetData())))
+                for place in ("point", "cell", "field"):
+                    arrays = [{data.GetArrayName(i): bytes(memoryview(data.GetArray(i)))
+                               for i in range(data.GetNumberOfArrays())}
+                              for data in (place_of(one, place), place_of(other, place))]
+                    self.assertEqual(*arrays, (series, time))
+
     def test_type_and_counts_are_the_same_in_every_frame(self):
         for series, (cell_type, _) in SERIES.items():
             source = opened(series)

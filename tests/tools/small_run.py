@@ -100,6 +100,8 @@ class SmallRun(unittest.TestCase):
             self.assertEqual(re.findall(r'file="([^"]*)"', pvd), expected)
             times = [float(time) for time in re.findall(r'timestep="([^"]*)"', pvd)]
             self.assertEqual(times, sorted(times))
+            listed = json.loads((self.out / f"{name}.vtu.series").read_text())["files"]
+            self.assertEqual([(one["name"], one["time"]) for one in listed], list(zip(expected, times)))
             for file in expected:
                 self.assertTrue((self.out / file).read_bytes().endswith(b"</VTKFile>\n"), file)
             beside = [path.name for path in (self.out / name).iterdir() if f"{name}/{path.name}" not in expected]

@@ -57,6 +57,13 @@ class Meshes(SmallRun):
         nodes = meshio.read(self.folder / "arm.inp").point_sets["PARTICLES"]
         self.assertEqual(list(nodes), list(numpy.flatnonzero(first.point_data["id"] >= 0)))
 
+    def test_the_ending_chooses_the_format(self):
+        for name in ("arm.lammps", "arm", "arm.data"):
+            done, target = self.fill(name, check=2)
+            self.assert_one_line(done, 2, name, ".vtu, .msh, .mesh or .inp")
+            self.assertFalse(target.exists())
+        self.assertEqual(self.fill("arm.MSH")[1].read_bytes(), self.fill("arm.msh")[1].read_bytes())
+
     def test_particles_are_where_the_body_has_them(self):
         _, target = self.fill("arm.vtu")
         cells = meshio.read(target)
@@ -130,9 +137,10 @@ class Runs(SmallRun):
         done = sinew("export", self.out, "--to", "volume", "--json", check=0)
         self.assertEqual(json.loads(done.stdout)["frames"], len(self.frames(self.out)))
         self.assertIn("volume.pvd", (self.out / "checksums.sfv").read_text())
+        self.assertIn("volume.vtu.series", (self.out / "checksums.sfv").read_text())
         self.assertEqual(sinew("info", self.out, "--verify").returncode, 0)
         self.simulate("--force")
-        self.assertFalse((self.out / "volume.pvd").exists())
+        self.assertEqual(list(self.out.glob("volume.*")), [])
         self.assertFalse((self.out / "volume").exists() and list((self.out / "volume").iterdir()))
 
     def test_a_killed_run_goes_on_with_the_same_cells(self):

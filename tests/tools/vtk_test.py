@@ -172,9 +172,10 @@ class Vtk(unittest.TestCase):
         path = self.written(vtk.vtkXMLUnstructuredGridWriter(), hexahedra(), "bar.vtu")
         scene, out = self.folder / "bar.yaml", self.folder / "out"
         sinew("fill", path, "--count", 500, "-o", self.folder / "body.vtu", check=0)
+        coarsely = ["--set", "body.radius=none", "--set", "body.count=1000"]
         sinew("new", path, "-o", scene, check=0)
-        sinew("check", scene, check=0)
-        sinew("simulate", scene, "-o", out, "--quiet", "--set", "solver.duration=0.05", check=0)
+        sinew("check", scene, *coarsely, check=0)
+        sinew("simulate", scene, "-o", out, "--quiet", *coarsely, "--set", "solver.duration=0.05", check=0)
         sinew("info", out / "surface/surface_000000.vtu", check=0)
         said = sinew("info", self.folder / "body.vtu", check=2).stderr
         self.assertIn("surface or a volume", said)

@@ -67,6 +67,17 @@ std::string pvd_text(const std::vector<PvdRow>& rows) {
   return text + "  </Collection>\n</VTKFile>\n";
 }
 
+std::string series_text(const std::vector<PvdRow>& rows) {
+  std::string text = "{\"file-series-version\": \"1.0\", \"files\": [";
+  const char* before = "\n";
+  for (const PvdRow& row : rows) {
+    text += before + std::string("  {\"name\": \"") + row.file +
+            "\", \"time\": " + number_text(row.time) + "}";
+    before = ",\n";
+  }
+  return text + "\n]}\n";
+}
+
 std::vector<PvdRow> read_pvd(const std::filesystem::path& path) {
   const std::string text = read_file(path, largest_pvd);
   try {
@@ -81,7 +92,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Often enough to follow a run, rarely enough to be negligible beside the frames.
-constexpr std::chrono::seconds pvd_pause{1};
+constexpr std::chrono::seconds pause_between_lists{1};
 
 /// Whether a series of this name writes a file of this name: "body_000016.vtu", or its beginnings.
 bool is_frame_of(const std::string& series, std::string_view name) {
@@ -104,7 +115,8 @@ void remove_older(const fs::path& folder, const std::string& series,
                   const std::vector<PvdRow>& kept) {
   std::set<std::string> stay;
   for (const PvdRow& row : kept) stay.insert(fs::path(row.file).filename().string());
-  if (kept.empty()) fs::remove(folder / (series + ".pvd"));
+  if (kept.empty())
+    for (const std::string& list : series_files(series)) fs::remove(folder / list);
   for (const auto& entry : fs::directory_iterator(folder / series))
     if (const std::string name = entry.path().filename().string();
         is_frame_of(series, name) && !stay.contains(name))
@@ -112,6 +124,10 @@ void remove_older(const fs::path& folder, const std::string& series,
 }
 
 }  // namespace
+
+std::array<std::string, 2> series_files(const std::string& series) {
+  return {series + ".pvd", series + ".vtu.series"};
+}
 
 std::string frame_name(const std::string& series, std::size_t number) {
   char digits[24];
@@ -125,8 +141,8 @@ Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
   keep(kept);
   create_inner_folder(folder_ / format_.series);
   try {
-    // The PVD is truncated first: it never lists a file that does not exist.
-    if (!rows_.empty()) write_pvd();
+    // The lists are truncated first: they never name a file that does not exist.
+    if (!rows_.empty()) write_lists();
     remove_older(folder_, format_.series, rows_);
   } catch (const fs::filesystem_error& error) {
     throw not_written((folder_ / format_.series).string(), error.code().message(),
@@ -174,17 +190,19 @@ void Series::drop_begun() const {
 
 void Series::add_row(double time, std::string file) {
   rows_.push_back({time, std::move(file)});
-  if (std::chrono::steady_clock::now() - pvd_written_ >= pvd_pause) write_pvd();
+  if (std::chrono::steady_clock::now() - listed_ >= pause_between_lists) write_lists();
 }
 
 void Series::close() {
-  if (rows_in_pvd_ < rows_.size()) write_pvd();
+  if (rows_listed_ < rows_.size()) write_lists();
 }
 
-void Series::write_pvd() {
-  write_file(folder_ / (format_.series + ".pvd"), pvd_text(rows_));
-  rows_in_pvd_ = rows_.size();
-  pvd_written_ = std::chrono::steady_clock::now();
+void Series::write_lists() {
+  const auto [pvd, series] = series_files(format_.series);
+  write_file(folder_ / pvd, pvd_text(rows_));
+  write_file(folder_ / series, series_text(rows_));
+  rows_listed_ = rows_.size();
+  listed_ = std::chrono::steady_clock::now();
 }
 
 }  // namespace sinew

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A series of frames: DIR/NAME.pvd, with one row per time, and DIR/NAME/NAME_000000.vtu and so on.
+// A series of frames: DIR/NAME.pvd, with one row per time, DIR/NAME.vtu.series with the same rows
+// as JSON, and DIR/NAME/NAME_000000.vtu and so on.
 //
 //     Series particles("out/bend", {.series = "particles"});
 //     particles.add(frame);
 //     particles.close();
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <span>
@@ -28,11 +30,18 @@ std::vector<PvdRow> read_pvd(const std::filesystem::path& path);
 /// The text of a PVD with these rows.
 std::string pvd_text(const std::vector<PvdRow>& rows);
 
+/// The text of a .series file with these rows, which ParaView and PyVista read as well.
+std::string series_text(const std::vector<PvdRow>& rows);
+
+/// Files that list the frames of a series: "particles.pvd" and "particles.vtu.series".
+std::array<std::string, 2> series_files(const std::string& series);
+
 /// "particles/particles_000012.vtu".
 std::string frame_name(const std::string& series, std::size_t number);
 
 /// Writes a series frame by frame. A concurrent reader finds complete files only: each frame is
-/// written before the PVD lists it, and the PVD is replaced at most once a second.
+/// written before the PVD and the .series file list it, and these are replaced at most once a
+/// second.
 class Series {
  public:
   /// Starts the series format.series in `folder`, which is created; an older one is removed except
@@ -51,7 +60,7 @@ class Series {
   void finish(const Dataset& frame);
   /// Removes what others began of later frames. Once they do so no more.
   void drop_begun() const;
-  /// Brings the PVD up to date. Throws not written.
+  /// Brings the lists of frames up to date. Throws not written.
   void close();
 
   const std::vector<PvdRow>& rows() const { return rows_; }
@@ -60,13 +69,13 @@ class Series {
  private:
   void keep(std::span<const double> times);
   void add_row(double time, std::string file);
-  void write_pvd();
+  void write_lists();
 
   std::filesystem::path folder_;
   VtuFormat format_;
   std::vector<PvdRow> rows_;
-  std::size_t rows_in_pvd_ = 0;
-  std::chrono::steady_clock::time_point pvd_written_{};
+  std::size_t rows_listed_ = 0;
+  std::chrono::steady_clock::time_point listed_{};
 };
 
 }  // namespace sinew

@@ -196,7 +196,8 @@ void FrameWriter::close() {
   particles_.drop_begun();
   for (Series* series : all_series()) {
     series->close();
-    if (written_ > 0) checksums_->add(series->name() + ".pvd");  // else it has no row, and is none
+    if (written_ == 0) continue;  // it has no row, and is none
+    for (const std::string& list : series_files(series->name())) checksums_->add(list);
   }
   bone_table_.close();
   checksums_->add("bones.csv");

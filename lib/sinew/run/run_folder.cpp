@@ -32,7 +32,7 @@ bool written_by_a_run(const fs::path& relative) {
       "metrics(_bones)?\\.(csv|json)|(bones|probes|sections|supports)\\.csv|surface\\.(obj|pc2|glb)"
       "|blowup\\.vtu|"
       "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values|volume)\\."
-      "pvd)("
+      "(pvd|vtu\\.series))("
       "\\.tmp)?|"
       "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values|volume)/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"

@@ -149,7 +149,7 @@ void list_files(const std::filesystem::path& folder, const std::vector<PvdRow>& 
   std::erase_if(kept, [](const Checksum& one) { return one.name.starts_with("volume"); });
   Checksums list(folder, kept);
   for (const PvdRow& row : rows) list.add(row.file);
-  list.add("volume.pvd");
+  for (const std::string& of_volume : series_files("volume")) list.add(of_volume);
 }
 
 }  // namespace

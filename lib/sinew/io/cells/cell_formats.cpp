@@ -90,7 +90,7 @@ constexpr std::array<CellFormat, 4> formats = {{{".vtu", "VTK", nullptr},
 
 const CellFormat& format_of(const std::filesystem::path& path) {
   for (const CellFormat& format : formats)
-    if (path.extension() == format.ending) return format;
+    if (lower(path.extension().string()) == format.ending) return format;
   throw bad_input("'" + path.string() + "' is no name for a file of tetrahedra",
                   "give a name that ends in .vtu, .msh, .mesh or .inp");
 }

@@ -69,13 +69,6 @@ void find_regions(ParticleCloud& cloud, const BodyFile& body, std::span<const st
   for (std::size_t i = 0; i < count; ++i) cloud.region[i] = number.at(key_of(i));
 }
 
-std::string extensions_of(const ParticleFormat& format) {
-  std::string text;
-  for (const std::string_view extension : format.extensions)
-    (text += text.empty() ? "" : " or ") += extension;
-  return text;
-}
-
 bool has_extension(const ParticleFormat& format, const std::string& extension) {
   return std::find(format.extensions.begin(), format.extensions.end(), extension) !=
          format.extensions.end();
@@ -163,13 +156,8 @@ std::string help_of_formats() {
 }
 
 const ParticleFormat& format_of(const std::string& name, const std::filesystem::path& path) {
-  const std::string extension = lower(path.extension().string());
-  if (name.empty()) return format_of_extension(extension, path);
-  const ParticleFormat& format = format_named(name);
-  if (!path.empty() && !has_extension(format, extension))
-    throw bad_input(shown(path.string()) + " is no name for a file of the format " + name,
-                    "give a name that ends in " + extensions_of(format));
-  return format;
+  return name.empty() ? format_of_extension(lower(path.extension().string()), path)
+                      : format_named(name);
 }
 
 void write_particles(const std::filesystem::path& path, const ParticleCloud& cloud,

@@ -61,9 +61,8 @@ std::span<const ParticleFormat> particle_formats();
 /// "lammps (LAMMPS data ...), xyz (...), ..." for help texts.
 std::string help_of_formats();
 
-/// The format of that name, or where it is "" of the extension of `path`. Throws bad input for
-/// unknown ones, for an extension that several formats share, and for one that is not the format's;
-/// `path` may be empty where a format is named.
+/// The format of that name, whatever `path` is called, or where it is "" of the extension of
+/// `path`. Throws bad input for unknown ones, and for an extension that several formats share.
 const ParticleFormat& format_of(const std::string& name, const std::filesystem::path& path);
 
 /// Each file atomically. Throws not written.
