@@ -5,7 +5,11 @@
 usage: arrays_test.py BIN SOURCE      folder of the programs, folder of the project; PYTHONPATH names the package's
 """
 import gc
+import importlib.util
 import json
+import os
+import re
+import subprocess
 import sys
 import unittest
 
@@ -309,6 +313,55 @@ class Results(SmallRun):
                 self.assertIsNotNone(use())
         if missing:
             self.skipTest(f"without {', '.join(sorted(set(missing)))}")
+
+
+class Page(SmallRun):
+    """The recipes of lib/python/README.md, one after the other, and its table of arrays."""
+
+    def importable(self, *names):
+        return all(importlib.util.find_spec(name) for name in names)
+
+    def test_recipes_and_table(self):
+        page = (SOURCE / "lib/python/README.md").read_text()
+        recipes = re.findall(r"### (\d+)\. .*?\n(.*?)(?=\n##)", page, re.S)
+        self.assertEqual([number for number, _ in recipes], [str(i) for i in range(1, 11)])
+        (self.folder / "data").symlink_to(SOURCE / "data")
+        names, before = {}, os.getcwd()
+        os.chdir(self.folder)
+        try:
+            for number, text in recipes:
+                for code in re.findall(r"```python\n(.*?)```", text, re.S):
+                    if "to_pyvista" not in code or self.importable("pyvista", "trimesh"):
+                        exec(compile(code, f"recipe {number}", "exec"), names)
+            self.check_table(page, names)
+        finally:
+            os.chdir(before)
+        self.assertEqual(names["inside"].tolist(), (names["depth"] > 0).tolist())
+        self.assertEqual(names["found"]["holes"], 1)
+
+    def check_table(self, page, names):
+        sizes = {}
+        rows = re.findall(r"^\| `(.+?)` \| \((.+?)\).*? \| (\w+) \|", page, re.M)
+        self.assertGreater(len(rows), 20)
+        for expression, shape, kind in rows:
+            array = eval(expression, names)
+            self.assertEqual(array.dtype.name, kind, expression)
+            wanted = [size.strip() for size in shape.split(",") if size.strip()]
+            self.assertEqual(array.ndim, len(wanted), expression)
+            for size, length in zip(wanted, array.shape):
+                owner = expression.split(".")[0].split("[")[0]
+                self.assertEqual(length, int(size) if size.isdigit() else sizes.setdefault((owner, size), length), expression)
+
+    def test_the_notebook_runs(self):
+        for module in ("nbconvert", "ipykernel"):
+            if not self.importable(module):
+                self.skipTest(f"without {module}")
+        done = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "html", "--execute", "--output-dir", self.folder,
+                               SOURCE / "lib/examples/mesh_to_report.ipynb"], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "mesh_to_report.html").read_text()
+        self.assertEqual(page.count("<img"), 3)
+        self.assertIn("report.html", page)
 
 
 if __name__ == "__main__":
