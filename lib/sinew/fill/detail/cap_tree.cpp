@@ -14,7 +14,7 @@ namespace {
 constexpr int caps_in_a_leaf = 4;
 constexpr std::size_t nodes_at_a_time = 256;
 
-double power(double x, int exponent) {
+double integer_power(double x, int exponent) {
   double result = 1;
   for (int i = 0; i < exponent; ++i) result *= x;
   return result;
@@ -111,7 +111,7 @@ void CapTree::expand(std::size_t index, std::span<const CapCorners> caps) {
   for (int i = node.first; i < node.last; ++i) {
     const CapCorners& t = caps[order_[i]];
     double sum = 0;
-    for (const Vec3& corner : t) sum += power((corner - node.center).norm(), degree);
+    for (const Vec3& corner : t) sum += integer_power((corner - node.center).norm(), degree);
     expansion.spread += (t[1] - t[0]).cross(t[2] - t[0]).norm() / 2 * sum / 3;
     if (node.left < 0) add_moments(t, node.center, expansion.moments);
   }
@@ -124,7 +124,7 @@ void CapTree::add(const Node& node, const Vec3& eye, FarField& sum) const {
   const double x = node.reach / distance;
   sum.winding -= field_of(expansion.moments, to) / (4 * pi);
   sum.doubt += expansion.spread * (degree + 1 - degree * x) /
-               (4 * pi * power(distance, degree + 2) * (1 - x) * (1 - x));
+               (4 * pi * integer_power(distance, degree + 2) * (1 - x) * (1 - x));
   sum.clearance = std::min(sum.clearance, distance - node.reach);
 }
 

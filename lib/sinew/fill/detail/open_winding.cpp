@@ -10,9 +10,9 @@ namespace sinew {
 
 namespace {
 
-// The rounding error of a solid angle is small farther than `close` of the size from its corners,
-// and not too near the triangle or its sides.
-constexpr double close = 1e-5, oblique = 1e-3, rounding_doubt = 1e-6;
+// The rounding error of a solid angle is small farther than `near_corner` of the size from its
+// corners, and not too near the triangle or its sides.
+constexpr double near_corner = 1e-5, steep = 1e-3, rounding_doubt = 1e-6;
 
 /// Distance of the origin from the segment a b.
 double distance(const Vec3& a, const Vec3& b) {
@@ -118,8 +118,8 @@ void OpenWinding::add_near(const View& view, int place, Contribution& sum) const
   const double la = a.norm(), lb = b.norm(), lc = c.norm(), size = la * lb * lc;
   const double turn = a.dot(b.cross(c));
   const double ahead = size + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  if (std::min({la, lb, lc}) > close * side_.extent() &&
-      std::abs(turn) + std::max(ahead, 0.0) > oblique * size) {
+  if (std::min({la, lb, lc}) > near_corner * side_.extent() &&
+      std::abs(turn) + std::max(ahead, 0.0) > steep * size) {
     sum.value -= std::atan2(turn, ahead) / (2 * pi);
   } else {
     sum.value += strips(view, cap).value - before(view, cap.face);
