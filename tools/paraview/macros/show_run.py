@@ -41,9 +41,8 @@ def color_by_first_of(shown, source, names, times):
             return
 
 
-def show_particles(run, view):
-    particles = part(run, "particles")
-    shown = Show(particles, view)
+def as_spheres(shown):
+    """Of the array radius."""
     shown.SetRepresentationType("Point Gaussian")
     shown.ShaderPreset = "Custom"
     shown.CustomTriangleScale = 2
@@ -52,6 +51,12 @@ def show_particles(run, view):
     shown.SetScaleArray = ["POINTS", "radius"]
     shown.UseScaleFunction = 0
     shown.GaussianRadius = 1
+
+
+def show_particles(run, view):
+    particles = part(run, "particles")
+    shown = Show(particles, view)
+    as_spheres(shown)
     color_by_first_of(shown, particles, ("strain_eq", "bone"), list(run.TimestepValues) or [0])
 
 
