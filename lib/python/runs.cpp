@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <sinew/metrics/particle_values.h>
+#include <sinew/run/report_input.h>
 #include <sinew/run/volume_frames.h>
 #include "arrays.h"
 #include "without_gil.h"

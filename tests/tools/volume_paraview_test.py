@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """pvbatch volume_paraview_test.py BIN SOURCE [TESTS]: what ParaView's filters make of the series volume of every scene in
-configs.
+configs, and what the plugin's reader has of its run.
 
 Their time is as shipped, that of groups cut short; bodies other than boxes have 3,000 particles. SINEW_FIGURES=1 in
 the environment prints the figures of lib/sinew/volume/README.md.
@@ -220,6 +220,25 @@ class OfEveryScene(unittest.TestCase):
     def figure(*values):
         if os.environ.get("SINEW_FIGURES"):
             print("|", " | ".join(value if isinstance(value, str) else f"{value:.5g}" for value in values), "|", flush=True)
+
+
+class Plugin(unittest.TestCase):
+    def test_the_reader_has_all_series_of_every_scene(self):
+        sys.path.append(str(SOURCE / "tools/paraview"))
+        import sinew_paraview
+        LoadPlugin(sinew_paraview.__file__, ns=globals())
+        for run in sorted(RUNS.iterdir()):
+            source = OpenDataFile(str(run / "run.json"))
+            series = {path.stem for path in run.glob("*.pvd")} & set(sinew_paraview.run_files.SERIES)
+            self.assertGreaterEqual(series, {"particles", "surface", "volume", "bones", "frames"})
+            for time in times_of(run):
+                found = fetched(source, time)
+                blocks = {found.GetMetaData(i).Get(found.NAME()): found.GetBlock(i) for i in range(found.GetNumberOfBlocks())}
+                self.assertEqual(set(blocks), series, run.name)
+                for name, block in blocks.items():
+                    own = fetched(opened(run, name), time)
+                    numpy.testing.assert_array_equal(points_of(block), points_of(own), f"{run.name} {name}")
+                    self.assertEqual(block.GetNumberOfCells(), own.GetNumberOfCells())
 
 
 class Torn(unittest.TestCase):
