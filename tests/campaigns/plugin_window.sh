@@ -11,3 +11,6 @@ PYTHONPATH=$PWD/tools/paraview/debian12:$PWD/build/paraview-python/usr/lib/pytho
 export PYTHONPATH PV_PLUGIN_PATH=$PWD/tools/paraview SINEW=$PWD/build/bin/sinew
 export SINEW_RUN=$run/run.json SINEW_MACROS=$PWD/tools/paraview/macros
 tests/campaigns/screenshot.sh "$picture" paraview --script=tests/campaigns/plugin_window.py
+# The window is smaller than the display.
+ffmpeg -y -loglevel error -i "$picture" -vf crop=1152:762:0:0 "$picture.window.png"
+mv "$picture.window.png" "$picture"
