@@ -67,7 +67,7 @@ class Stepped {
     return forces_;
   }
   const Points& surface() {
-    if (!skin_) throw bad_input("this body has no surface", "make it from a scene with a mesh");
+    refuse_without_surface();
     const Points moved = follow(*skin_, positions());
     surface_.resize(moved.size());  // views of it stay valid
     std::copy(moved.begin(), moved.end(), surface_.begin());
@@ -126,8 +126,7 @@ class Stepped {
     const Busy busy(stepping_);  // other threads may run meanwhile
     const WithoutGil free;
     if (!meter_) {
-      if (faces_.empty())
-        throw bad_input("this body has no surface", "make it from a scene with a mesh");
+      refuse_without_surface();
       meter_.emplace(simulation_->body(), skin_at_rest_);
     }
     std::vector<Column> found = meter_->arrays(*simulation_, name);
@@ -139,12 +138,16 @@ class Stepped {
   /// The same at the vertices of the surface.
   Column measured_on_surface(const std::string& name) {
     const Column of_particles = measured(name);
-    if (!skin_) throw bad_input("this body has no surface", "make it from a scene with a mesh");
+    refuse_without_surface();
     return at_vertices(*skin_, of_particles);
   }
 
   /// What a file of that series would hold.
   std::shared_ptr<Dataset> dataset(const std::string& series) {
+    if (series == "volume" && !frame_scene_.volume)
+      throw bad_input("this scene has no cells between its particles",
+                      "read it with {\"output.volume\": True}");
+    if (series == "surface") refuse_without_surface();
     const Busy busy(stepping_);
     const WithoutGil free;
     if (!frame_data_) frame_data_.emplace(output_, simulation_->body(), frame_scene_);
@@ -167,6 +170,9 @@ class Stepped {
  private:
   [[noreturn]] static void refuse() {
     throw bad_input("another thread steps this simulation", "wait until its step() has returned");
+  }
+  void refuse_without_surface() const {
+    if (!skin_) throw bad_input("this body has no surface", "make it from a scene with a mesh");
   }
   void refuse_while_stepping() const {
     if (stepping_) refuse();

@@ -288,8 +288,15 @@ class Results(SmallRun):
                 for name in now:
                     numpy.testing.assert_array_equal(now[name], written[name])
         self.assertEqual(simulation.to_vtk().GetNumberOfBlocks(), 4)
-        with self.assertRaisesRegex(sinew.Error, "no series 'bone'"):
-            simulation.dataset("bone")
+        plain = sinew.Simulation(sinew.read_scene(self.scene, {"body.radius": 0.04}))
+        points = sinew.Body(plain.positions, 0.04)
+        bare = sinew.Simulation(sinew.make_scene({"skeleton": {"bones": [{"name": "low", "head": [0, 0, 0], "tail": [0, 0, 0.1]}]}}, points),
+                                points)
+        for use, series, words in ((simulation, "bone", "no series 'bone'"), (plain, "volume", "output.volume"),
+                                   (bare, "surface", "no surface")):
+            with self.assertRaisesRegex(sinew.Error, words):
+                use.dataset(series)
+        self.assertEqual(len(bare.dataset("particles").points), len(points))
 
     def test_what_objects_are(self):
         body = sinew.fill(self.run_.scene)

@@ -218,7 +218,9 @@ Filling pack(const Surface& surface, const PackOptions& options) {
 }
 
 Filling fill(Points points, std::vector<std::vector<int>> polygons, const PackOptions& options) {
-  return pack(clean({std::move(points), std::move(polygons)}), options);
+  const PolygonSoup soup{std::move(points), std::move(polygons)};
+  check_soup(soup);
+  return pack(clean(soup), options);
 }
 
 }  // namespace sinew

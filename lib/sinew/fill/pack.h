@@ -51,7 +51,7 @@ struct Filling {
 Filling pack(const Surface& surface, const PackOptions& options);
 
 /// The same of polygons, each three corners or more, indices of points (n x 3, m): cleaned first.
-/// Throws Error (bad input) as clean() does too.
+/// Throws Error (bad input) as check_soup() and clean() do too.
 Filling fill(Points points, std::vector<std::vector<int>> polygons, const PackOptions& options);
 
 }  // namespace sinew
