@@ -17,11 +17,10 @@ std::shared_ptr<RunFiles> open(const std::filesystem::path& folder) {
   return std::make_shared<RunFiles>(open_run({folder}));
 }
 
-py::dict measure(const std::filesystem::path& folder) {
+py::dict measure(const RunFiles& run) {
   Measured measured;
   {
     const WithoutGil free;
-    const RunFiles run = open_run({folder});
     measured = measure_run(run, {});
   }
   py::dict columns;
@@ -185,7 +184,7 @@ void bind_runs(py::module_& module) {
         return view_of(self.cast<R&>().surface.faces, self);
       });
   module.def("_open_run", &open);
-  module.def("measure", &measure, py::arg("folder"));
+  module.def("_measure", &measure);
   module.def("_report", &report);
   module.def("_units_of_metrics", &units_of_metrics);
   module.def("_simulate", &simulate_into);

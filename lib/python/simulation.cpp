@@ -147,10 +147,14 @@ class Stepped {
     if (series == "volume" && !frame_scene_.volume)
       throw bad_input("this scene has no cells between its particles",
                       "read it with {\"output.volume\": True}");
+    if (series == "bonds" && !output_.bonds)
+      throw bad_input("this scene writes no bonds", "read it with {\"output.bonds\": True}");
     if (series == "surface") refuse_without_surface();
     const Busy busy(stepping_);
     const WithoutGil free;
-    if (!frame_data_) frame_data_.emplace(output_, simulation_->body(), frame_scene_);
+    if (!frame_data_)
+      frame_data_.emplace(output_, simulation_->body(), frame_scene_,
+                          faces_.empty() ? StrainInFrames::on_request : StrainInFrames::by_default);
     if (taken_at_ != simulation_->steps()) frame_data_->take(*simulation_);
     taken_at_ = simulation_->steps();
     return shared(dataset_of(*frame_data_, series));

@@ -179,8 +179,14 @@ class Arrays(SmallRun):
         for points, words in ((V[:, :2], "points have the shape"), (nan, r"points\[2\]"), ("abc", "points")):
             with self.assertRaisesRegex(sinew.Error, words):
                 sinew.distance(V, F, points)
-        with self.assertRaisesRegex(sinew.Error, "body.radius and body.count are both missing"):
-            sinew.fill(V, F)
+        masked = numpy.ma.masked_array(V, V > 0.5)
+        for words, use in (("body.radius and body.count are both missing", lambda: sinew.fill(V, F)),
+                           ("given twice", lambda: sinew.fill(V, F, radius=0.1, count=10)),
+                           ("radius is 1j", lambda: sinew.fill(V, F, radius=1j)), ("vertices are masked", lambda: sinew.fill(masked, F, 0.1)),
+                           ("is a path", lambda: sinew.diagnose("arm.ply")), ("use diagnose", lambda: sinew.info((V, F))),
+                           ("give radius=0.5", lambda: sinew.fill(V, numpy.float32(0.5)))):
+            with self.assertRaisesRegex(sinew.Error, words):
+                use()
 
     def test_results_are_not_copied(self):
         body = sinew.fill(*read_arrays("arm.ply"), radius=0.01)
@@ -228,6 +234,25 @@ class Results(SmallRun):
         with self.assertRaisesRegex(sinew.Error, "no array 'strss'"):
             run[0].dataset()["strss"]
 
+    def test_frames_of_series_that_have_more(self):
+        """With output.every, fewer frames have particles."""
+        scene = sinew.read_scene(self.scene, {"body.radius": 0.04, "output.every": 3})
+        run = sinew.simulate(scene, self.folder / "every")
+        self.assertEqual(len(run), 5)
+        surfaces = run.frames("surface")
+        self.assertEqual(len(surfaces), 13)
+        numpy.testing.assert_allclose(surfaces.times, numpy.linspace(0, 0.4, 13), atol=1e-9)
+        numpy.testing.assert_array_equal(surfaces[3].points, run[1].surface)
+        self.assertEqual(len(run.metrics["time"]), 5)
+
+    def test_tables_of_damaged_runs(self):
+        text = (self.out / "bones.csv").read_text()
+        (self.out / "bones.csv").write_text(text[:-20])
+        self.assertEqual(len(sinew.open_run(self.out).bones["time"]), 25)
+        (self.out / "bones.csv").unlink()
+        with self.assertRaisesRegex(sinew.Error, "bones.csv: No such file"):
+            sinew.open_run(self.out).bones
+
     def test_any_array_by_its_name(self):
         frame = self.run_[6]
         for name in ("J", "velocity", "force"):  # written
@@ -236,6 +261,8 @@ class Results(SmallRun):
         measured = meshio.read(sorted((self.out / "values").glob("*.vtu"))[6])
         for name in ("stress", "strain"):
             numpy.testing.assert_allclose(frame.array(name), measured.point_data[name], rtol=1e-6, atol=1e-6 * abs(frame[name]).max())
+        self.assertIn("velocity", frame)
+        self.assertEqual(list(frame), list(frame.dataset().point_arrays))
         with self.assertRaisesRegex(sinew.Error, "output.arrays: force_radial"):
             frame["force_radial"]
         with self.assertRaisesRegex(sinew.Error, "stress"):

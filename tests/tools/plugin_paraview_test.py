@@ -162,6 +162,30 @@ class Reader(SmallRun):
         numpy.testing.assert_array_equal(vtk_to_numpy(found.GetColumnByName("upper moment_y")),
                                          [float(row[names.index("moment_y")]) for row in upper])
 
+    def test_tables_are_read_again(self):
+        self.simulate("--set", "body.radius=0.04")
+        table = SinewTables(FileName=str(self.out / "run.json"), Table="metrics")
+        with Messages() as messages:
+            table.UpdatePipeline()
+        self.assertIn("sinew measure", messages.text)
+        command("measure", "--quiet", self.out, check=0)
+        self.assertTrue(table.GetClientSideObject().GetNeedsUpdate())
+        table.UpdatePipeline()
+        self.assertEqual(servermanager.Fetch(table).GetNumberOfRows(), 13)
+
+    def test_damaged_frames_are_named(self):
+        self.simulate("--set", "body.radius=0.04")
+        frames = sorted((self.out / "particles").glob("*.vtu"))
+        for index, content in ((0, b""), (5, frames[5].read_bytes()[:3000])):
+            frames[index].write_bytes(content)
+        run = SinewRun(FileName=str(self.out / "run.json"))
+        run.UpdatePipelineInformation()
+        self.assertIn("velocity", arrays(blocks(fetched(run, run.TimestepValues[3]))["particles"].GetPointData()))
+        for index in (0, 5):
+            with Messages() as messages:
+                run.UpdatePipeline(run.TimestepValues[index])
+            self.assertIn(f"{frames[index]}: cannot be read; see sinew info {self.out} --verify", messages.text)
+
     def test_what_is_no_run_is_refused_in_words(self):
         (self.folder / "run.json").write_text("{}")
         with Messages() as messages:
@@ -266,6 +290,17 @@ class Packing(SmallRun):
             self.assertIn(words, messages.text)
             self.assertNotIn("Traceback", messages.text)
             self.assertEqual(servermanager.Fetch(packing).GetNumberOfPoints(), 0)
+        self.assertEqual(field(fetched(ClosestPacking(Input=sphere), port=1), "closed"), 1)  # the mesh is diagnosed all the same
+
+    @unittest.skipIf(MODULE, "of the command alone")
+    def test_a_command_that_is_none(self):
+        for path, words in (("/nowhere/sinew", "/nowhere/sinew: No such file"), ("/bin/true", "does not answer as sinew does")):
+            os.environ["SINEW"] = path
+            with Messages() as messages:
+                ClosestPacking(Input=Sphere(), Radius=0.1).UpdatePipeline()
+            self.assertIn(words, messages.text)
+            self.assertIn("set SINEW", messages.text)
+        os.environ["SINEW"] = str(BIN / "sinew")
 
 
 def cloud(positions, ids=None):
@@ -346,6 +381,14 @@ class Deformed(SmallRun):
         particles = ExtractBlock(Input=SinewRun(FileName=str(self.out / "run.json")), Selectors=["/Root/particles"])
         measured = arrays(fetched(OpenDataFile(str(self.out / "particles.pvd")), 0.2).GetPointData())
         found = arrays(fetched(Deformation(Input=particles), 0.2).GetPointData())
+        whole = SinewRun(FileName=str(self.out / "run.json"))
+        numpy.testing.assert_array_equal(arrays(fetched(Deformation(Input=whole), 0.2).GetPointData())["F"], found["F"])
+        other = fetched(Deformation(Input=particles, Reference=whole, ReferenceTime=0), 0.2)
+        numpy.testing.assert_array_equal(arrays(other.GetPointData())["F"], found["F"])
+        at_first = arrays(fetched(Deformation(Input=particles, ReferenceTime=0.2)).GetPointData())
+        inverse = numpy.linalg.inv(found["F"].reshape(-1, 3, 3))
+        self.assertLess(numpy.nanmedian(abs(at_first["F"].reshape(-1, 3, 3) - inverse)), 0.01)
+        self.assertGreater(numpy.nanmax(abs(at_first["J"] - 1)), 0.02)
         inside = measured["neighbors"] >= 12
         self.assertGreater(inside.sum(), 100)
         self.assertLess(numpy.sqrt(((found["F"] - measured["F"])[inside] ** 2).mean()), 0.01)
@@ -390,6 +433,11 @@ run 0
                 self.deformation(rest, now, ids, **properties)
             self.assertIn(words, messages.text)
             self.assertNotIn("Traceback", messages.text)
+        broken = self.rest.copy()
+        broken[3, 1] = numpy.nan
+        with Messages() as messages:
+            self.deformation(broken, self.rest)
+        self.assertIn("not finite", messages.text)
         with Messages() as messages:
             Deformation(Input=cloud(self.rest)).UpdatePipeline()
         self.assertIn("one moment", messages.text)

@@ -12,7 +12,7 @@ import sys
 
 import numpy
 
-if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 takes from Python, and Python 3.11 has no longer
+if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 takes from Python, and Python 3.11 no longer has
     inspect.getargspec = inspect.getfullargspec
 
 from paraview.util.vtkAlgorithm import smdomain, smhint, smproperty, smproxy
@@ -117,12 +117,17 @@ class SinewRun(VTKPythonAlgorithmBase):
 
 
 @smproxy.source(name="SinewTables", label="Sinew Tables")
+@smhint.xml('<LiveSource interval="1000" />')
 class SinewTables(VTKPythonAlgorithmBase):
     """A table of a run, a row for each time, to be plotted over its column time: metrics, bones, supports or probes."""
 
     def __init__(self):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkTable")
-        self._file, self._table = None, 0
+        self._file, self._table, self._seen = None, 0, None
+
+    @smproperty.xml('<Property name="Reload" command="Modified" panel_widget="command_button" />')
+    def Reload(self):
+        self.Modified()
 
     @smproperty.stringvector(name="FileName")
     @smdomain.filelist()
@@ -139,10 +144,22 @@ class SinewTables(VTKPythonAlgorithmBase):
         self._table = table
         self.Modified()
 
+    def _path(self):
+        return os.path.join(run_files.folder_of_run(self._file), f"{run_files.TABLES[self._table]}.csv")
+
+    def GetNeedsUpdate(self):
+        """Whether the file has changed; ParaView asks every second."""
+        with contextlib.suppress(Refused):
+            if self._seen is not None and run_files.time_of(self._path()) != self._seen:
+                self.Modified()
+                return True
+        return False
+
     def RequestData(self, request, inInfo, outInfo):
         output = vtkTable.GetData(outInfo, 0)
         with errors_shown(self):
-            table = run_files.table_of(run_files.folder_of_run(self._file), run_files.TABLES[self._table])
+            self._seen = run_files.time_of(self._path())
+            table = run_files.table_of(self._path())
             for label, values in table.items():
                 output.AddColumn(texts(label, values) if isinstance(values, list) else vtk_array(label, values))
         return 1
@@ -204,31 +221,32 @@ class ClosestPacking(VTKPythonAlgorithmBase):
         info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject")
         return 1
 
-    def _options(self):
-        values = self._values
-        if values["Radius"] and values["Count"]:
+    def _size(self):
+        radius, count = self._values["Radius"], self._values["Count"]
+        if radius and count:
             raise Refused("the size of the particles is given twice; set Radius or Count to 0")
-        if not values["Radius"] and not values["Count"]:
+        if not radius and not count:
             raise Refused("the size of the particles is not given; set Radius, or Count to about how many there shall be")
-        options = {"radius": values["Radius"]} if values["Radius"] else {"count": values["Count"]}
-        if values["CloseHoles"]:
-            options["close_holes"] = True
-        if values["Packing"]:
-            options["packing"] = packing.PACKINGS[values["Packing"]]
-        if values["NestedShells"]:
-            options["rule"] = packing.RULES[values["NestedShells"]]
-        if any(values["Rotation"]):
-            options["lattice_rotation"] = list(values["Rotation"])
-        return options
+        return {"radius": radius} if radius else {"count": count}
+
+    def _preparation(self):
+        """Options for reading the mesh."""
+        options = {"close_holes": True} if self._values["CloseHoles"] else {}
+        return {**options, "rule": packing.RULES[1]} if self._values["NestedShells"] else options
+
+    def _placement(self):
+        options = {"packing": packing.PACKINGS[self._values["Packing"]]} if self._values["Packing"] else {}
+        return {**options, "lattice_rotation": list(self._values["Rotation"])} if any(self._values["Rotation"]) else options
 
     def RequestData(self, request, inInfo, outInfo):
         with errors_shown(self):
             mesh = packing.polygons_of(vtkDataObject.GetData(inInfo[0], 0))
-            by, options = packing.engine(), self._options()
-            defects, found, warnings = by.diagnose(mesh, options)
+            by = packing.engine()
+            defects, found, warnings = by.diagnose(mesh, self._preparation())
             output = vtkUnstructuredGrid.GetData(outInfo, 1)
             output.ShallowCopy(defects)
             packing.add_findings(output, found, warnings, by.name)
+            options = {**self._size(), **self._preparation(), **self._placement()}
             filled, report, warnings = by.fill(mesh, options, self._values["Output"] == 1)
             output = vtkUnstructuredGrid.GetData(outInfo, 0)
             output.ShallowCopy(filled)
@@ -250,11 +268,11 @@ class Deformation(VTKPythonAlgorithmBase):
     def __init__(self):
         super().__init__(nInputPorts=2, nOutputPorts=1, outputType="vtkUnstructuredGrid")
         self._reference_time, self._cutoff = 0.0, 0.0
-        self._kept, self._asks = None, False
+        self._kept = None
 
     @smproperty.doublevector(name="ReferenceTime", default_values=0.0)
     def SetReferenceTime(self, time):
-        self._reference_time, self._kept = time, None
+        self._reference_time = time
         self.Modified()
 
     @smproperty.doublevector(name="Cutoff", default_values=0.0)
@@ -271,30 +289,42 @@ class Deformation(VTKPythonAlgorithmBase):
         return 1
 
     def RequestUpdateExtent(self, request, inInfo, outInfo):
-        source = inInfo[0].GetInformationObject(0)
-        if self._asks and source.Has(vtkStreamingDemandDrivenPipeline.TIME_STEPS()):
-            source.Set(vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP(), self._reference_time)
+        """First the moment at rest, then, in a second round, the wanted one."""
+        asked = requested_time(outInfo.GetInformationObject(0))
+        keys = vtkStreamingDemandDrivenPipeline
+        for port in (0, 1):
+            if inInfo[port].GetNumberOfInformationObjects() == 0:
+                continue
+            source = inInfo[port].GetInformationObject(0)
+            if source.Has(keys.TIME_STEPS()) and source.Length(keys.TIME_STEPS()) > 0:
+                wanted = source.Get(keys.TIME_STEPS(), 0) if asked is None else asked
+                at_rest = port == 1 or (self._kept is None and not self._has_reference(inInfo))
+                source.Set(keys.UPDATE_TIME_STEP(), self._reference_time if at_rest else wanted)
         return 1
+
+    @staticmethod
+    def _has_reference(inInfo):
+        return inInfo[1].GetNumberOfInformationObjects() > 0
 
     def RequestData(self, request, inInfo, outInfo):
         with errors_shown(self):
             rest = self._rest(inInfo)
-            if rest is None:  # ask for another moment of the input
+            if rest is None:
                 request.Set(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING(), 1)
                 return 1
-            deformation.add_deformation(vtkUnstructuredGrid.GetData(outInfo, 0), rest, vtkDataObject.GetData(inInfo[0], 0), self._cutoff)
-        self._asks, self._kept = False, None
+            deformation.add_deformation(vtkUnstructuredGrid.GetData(outInfo, 0), rest, vtkDataObject.GetData(inInfo[0], 0),
+                                        self._cutoff)
+        self._kept = None
         request.Remove(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING())
         return 1
 
     def _rest(self, inInfo):
-        """Positions and ids at rest; None: first another moment is needed, at rest if _asks, else the wanted one."""
-        if inInfo[1].GetNumberOfInformationObjects() > 0:
+        """Positions and ids at rest; None: they were what has come, and the wanted moment is needed."""
+        if self._has_reference(inInfo):
             return deformation.points_of(vtkDataObject.GetData(inInfo[1], 0))
         if not inInfo[0].GetInformationObject(0).Has(vtkStreamingDemandDrivenPipeline.TIME_STEPS()):
             raise Refused("the input has one moment; give the moment at rest as the second input, Reference")
-        if self._asks:
-            self._kept, self._asks = deformation.points_of(vtkDataObject.GetData(inInfo[0], 0)), False
+        if self._kept is None:
+            self._kept = deformation.points_of(vtkDataObject.GetData(inInfo[0], 0))
             return None
-        self._asks = self._kept is None
         return self._kept

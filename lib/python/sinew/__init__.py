@@ -9,9 +9,9 @@ from . import _sinew
 from ._data import Dataset, vtk_composite as _composite
 from ._meshes import Diagnosis, Mesh, NewScene, check, diagnose, distance, fill, info, new, polygons_of as _polygons_of, \
     repair, tetrahedra, winding_number
-from ._runs import Frame, Frames, Run, SERIES as _SERIES, open_run
-from ._sinew import Body, Error, Scene, Simulation, __version__, measure
-from ._values import Findings, pairs as _pairs, yaml as _yaml
+from ._runs import Frame, Frames, Run, measure, open_run
+from ._sinew import Body, Error, Scene, Simulation, __version__
+from ._values import Findings, is_path as _is_path, pairs as _pairs, yaml as _yaml
 
 __all__ = ["Body", "Dataset", "Diagnosis", "Error", "Findings", "Frame", "Frames", "Mesh", "NewScene", "Run", "Scene",
            "Simulation", "check", "diagnose", "distance", "fill", "info", "make_scene", "measure", "new", "open_run",
@@ -42,7 +42,8 @@ def make_scene(sections, body=None, folder=".", mesh=None):
 
 
 def simulate(scene, folder, force=False, resume=False):
-    """Runs a scene into a folder, as `sinew simulate` does, and opens the run."""
+    """Runs a scene (or a scene's file) into a folder, as `sinew simulate` does, and opens the run."""
+    scene = read_scene(scene) if _is_path(scene) else scene
     _sinew._simulate(scene, folder, force, resume)
     return Run(folder)
 
@@ -52,8 +53,7 @@ def _scene_repr(scene):
 
 
 def _simulation_repr(simulation):
-    return (f"<sinew.Simulation at {simulation.time:.6g} s, step {simulation.steps}: {len(simulation.positions)} particles, "
-            f"{len(simulation.bones)} bones>")
+    return f"<sinew.Simulation at {simulation.time:.6g} s, step {simulation.steps}: {len(simulation.bones)} bones>"
 
 
 def _to_vtk(simulation):

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes: files, arrays, and what other packages have, to particles and answers."""
 import json
+import numbers
 import os
 
 import numpy
 
 from . import _sinew
 from ._data import Dataset, particles_of_body, pyvista_of, trimesh_of
-from ._values import Findings, pairs
+from ._values import Findings, is_path, pairs
 
 
 def _arrays_of_vtk(data):
@@ -31,12 +32,10 @@ def _arrays_of_cells(mesh):
     return mesh.points, faces[0] if len(faces) == 1 else [list(face) for block in faces for face in block]
 
 
-def _is_path(mesh):
-    return isinstance(mesh, (str, bytes, os.PathLike))
-
-
 def polygons_of(mesh, faces=None):
     """The polygons of arrays, or of a mesh of trimesh, VTK, PyVista or meshio."""
+    if is_path(mesh):
+        raise _sinew.Error(f"{os.fspath(mesh)!r} is a path; give vertices and faces, or ask sinew.info() about the file")
     if faces is None:
         if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
             mesh, faces = mesh
@@ -48,6 +47,9 @@ def polygons_of(mesh, faces=None):
             raise _sinew.Error("the mesh has cells that are no polygons; extract its surface (vtkGeometryFilter)")
         elif hasattr(mesh, "points") and hasattr(mesh, "cells"):
             mesh, faces = _arrays_of_cells(mesh)
+    for name, array in (("vertices", mesh), ("faces", faces)):
+        if numpy.ma.is_masked(array):
+            raise _sinew.Error(f"{name} are masked; leave out what is not there")
     return _sinew._polygons(mesh, faces)
 
 
@@ -120,7 +122,7 @@ class Diagnosis(Findings):
 def diagnose(mesh, faces=None, **options):
     """What is in a mesh, and what is wrong with it and where: a Diagnosis.
 
-    Takes arrays, or a mesh as fill() does but in no file; options as repair()."""
+    Takes arrays, or a mesh as fill() does, but not a path; options as repair()."""
     return Diagnosis(_surface(mesh, faces, options))
 
 
@@ -131,19 +133,19 @@ def repair(mesh, faces=None, **options):
 
 
 def _queried(mesh, faces, points):
-    """Of (vertices, faces, points) or (mesh, points)."""
+    """Surface and points of (vertices, faces, points) or (mesh, points)."""
     return (_surface(mesh, None, {}), faces) if points is None else (_surface(mesh, faces, {}), points)
 
 
-def distance(mesh, faces, points=None, signed=False):
+def distance(mesh, faces=None, points=None, signed=False):
     """Distance of each point (n, 3) from the nearest face: (n,). `signed`: negative inside, where the winding number
-    is above 1/2. Also distance(mesh, points), of a mesh as fill() takes it but in no file."""
+    is above 1/2. Also distance(mesh, points), of a mesh as fill() takes it, but not a path."""
     surface, points = _queried(mesh, faces, points)
     away = surface.distance(points)
     return numpy.where(surface.winding_number(points) > 0.5, -away, away) if signed else away
 
 
-def winding_number(mesh, faces, points=None):
+def winding_number(mesh, faces=None, points=None):
     """Generalized winding number of the surface about each point (n, 3): (n,), 1 inside and 0 outside of a closed one.
 
     The surface is as fill() takes it: faces are oriented first. Not-a-number on it (Jacobson et al. 2013)."""
@@ -153,16 +155,18 @@ def winding_number(mesh, faces, points=None):
 
 def _by_settings(kinds, mesh, faces, radius, count, density, options):
     """Calls one of (of a path, of polygons, of a scene)."""
-    if isinstance(faces, (int, float)):
+    if isinstance(faces, numbers.Number):
         raise _sinew.Error(f"faces are {faces}; give radius={faces} or count={faces} by its name")
     values = pairs({"body.radius": radius, "body.count": count, "material.density": density,
                     **{f"body.{key}": value for key, value in options.items()}})
+    if radius is not None and count is not None:
+        raise _sinew.Error("the size of the particles is given twice; keep one of radius and count")
     of_path, of_polygons, of_scene = kinds
     if isinstance(mesh, _sinew.Scene):
-        if values:
-            raise TypeError(f"a scene says itself how it is filled; read it with {values}")
+        if values or faces is not None:
+            raise TypeError("a scene says itself what is filled, and how; read it with these settings")
         return of_scene(mesh)
-    if _is_path(mesh) and faces is None:
+    if is_path(mesh) and faces is None:
         return of_path(mesh, values)
     return of_polygons(polygons_of(mesh, faces), values)
 
@@ -204,8 +208,10 @@ def new(mesh, rig=None, scene=None, faces=None, force=False):
 
     `mesh` as in fill(), or a rig alone; `rig`: a BVH or glTF file; `scene`: the path, by default NAME-OF-MESH.yaml here
     (mesh.yaml of arrays, whose mesh is written beside it, in double)."""
+    if not is_path(mesh) and rig is not None and not is_path(rig):  # new(vertices, faces)
+        faces, rig = rig, None
     words = (os.fspath(rig) if rig is not None else "", os.fspath(scene) if scene is not None else "", force)
-    if _is_path(mesh) and faces is None:
+    if is_path(mesh) and faces is None:
         return NewScene(_sinew._new(mesh, *words))
     return NewScene(_sinew._new_of_polygons(polygons_of(mesh, faces), *words))
 
@@ -213,16 +219,18 @@ def new(mesh, rig=None, scene=None, faces=None, force=False):
 def info(path, settings=None, radius=None, verify=False, drawing=None):
     """What is in a mesh, rig, clip, scene or run, as `sinew info --json` has it: a dict, with `warnings`.
 
-    `settings` are those of a scene or of the section body; `radius` (m): how fast a rig moves such particles; `verify`
+    `settings` as of read_scene(), of a mesh those of its section: {"body.unit": "mm"}; `radius` (m): how fast a rig moves such particles; `verify`
     compares a run with its checksums; `drawing`: a .vtu file of the mesh's defects to be written."""
     drawn = os.fspath(drawing) if drawing is not None else ""
+    if not is_path(path):
+        raise _sinew.Error("info() describes files; of arrays use diagnose()")
     return Findings(*_sinew._info(path, pairs(settings or {}), radius, verify, drawn))
 
 
 def check(scene, folder="."):
-    """What a run of the scene would need, how its body behaves, and which settings are doubtful, as
+    """What a run of the scene (or of a scene's file) would need, how its body behaves, and which settings are doubtful, as
     `sinew check --json` has it: a dict, with `warnings`. Disk space is that of `folder`."""
-    return Findings(*_sinew._check(scene, folder))
+    return Findings(*_sinew._check(_sinew._read_scene(scene, []) if is_path(scene) else scene, folder))
 
 
 def _report(body):

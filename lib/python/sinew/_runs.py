@@ -31,8 +31,12 @@ def _column(values):
 
 def read_table(path):
     """The columns of a CSV file: numbers, empty ones not-a-number, or texts."""
-    with open(path, newline="", encoding="utf-8", errors="surrogateescape") as file:
-        rows = list(csv.reader(file))
+    try:
+        with open(path, newline="", encoding="utf-8", errors="surrogateescape") as file:
+            rows = list(csv.reader(file))
+    except OSError as error:
+        raise _sinew.Error(f"{path}: {error.strerror}; restore it from a copy, or run the scene again") from None
+    rows = [row for row in rows if len(row) == len(rows[0])]  # the last one of a run in progress may be torn
     return {name: _column([row[i] for row in rows[1:]]) for i, name in enumerate(rows[0])} if rows else {}
 
 
@@ -105,6 +109,16 @@ class Frame:
 
     __getitem__ = array
 
+    def keys(self):
+        """Names of the arrays of the particles that were written."""
+        return [*self.dataset().point_arrays]
+
+    def __iter__(self):
+        return iter(self.keys())
+
+    def __contains__(self, name):
+        return name in self.keys()
+
     def to_vtk(self):
         """A vtkMultiBlockDataSet with a named block for each series of the run."""
         return vtk_composite({series: self.dataset(series) for series in self._run.series})
@@ -118,7 +132,7 @@ class Frame:
 
 
 class Frames:
-    """Some frames of a run in order, or a series of them; each is read when it is asked for."""
+    """Some frames of a run in order, or of one of its series; each is read when it is asked for."""
 
     def __init__(self, run, indices, series=None):
         self._run, self._indices, self._series = run, indices, series
@@ -133,12 +147,12 @@ class Frames:
             frame = self._indices[index]
         except IndexError:
             raise IndexError(f"there is no frame {index}: there are {len(self)}") from None
-        return Frame(self._run, frame) if self._series is None else self._run._dataset(self._series, frame)
+        return Frame(self._run, frame) if self._series is None else self._run._dataset_at(self._series, frame)
 
     @property
     def times(self):
         """s."""
-        return self._run.times[list(self._indices)]
+        return self._run._times_of(self._series)[list(self._indices)]
 
     def __repr__(self):
         what = self._series or "frames"
@@ -166,10 +180,10 @@ class Run:
         return Frames(self, range(len(self)))[index]
 
     def frames(self, series=None):
-        """All frames, or the data sets of a series in all of them."""
-        if series is not None and series not in self.series and series != "volume":
-            raise _sinew.Error(f"this run has no series {series!r}; take one of {', '.join(self.series)}")
-        return Frames(self, range(len(self)), series)
+        """All frames, or the data sets of a series, which with output.every may be more than those of particles."""
+        if series is not None:
+            self._check(series)
+        return Frames(self, range(len(self._times_of(series))), series)
 
     @property
     def folder(self):
@@ -212,7 +226,7 @@ class Run:
     @property
     def metrics(self):
         """What the run measures, a row for each frame: a pandas.DataFrame, or without pandas a dict of arrays."""
-        return table(self._once("metrics", lambda: _sinew.measure(self.folder)), _sinew._units_of_metrics())
+        return table(self._once("metrics", lambda: _sinew._measure(self._files)), _sinew._units_of_metrics())
 
     @property
     def bones(self):
@@ -227,27 +241,50 @@ class Run:
     def _meter(self):
         return self._once("meter", lambda: _sinew._RunMeter(self._files))
 
+    def _check(self, series):
+        if series not in self.series and series != "volume":
+            raise _sinew.Error(f"this run has no series {series!r}; take one of {', '.join(self.series)}")
+
     def _rows(self, series):
         return self._once(f"{series}.pvd", lambda: _sinew._read_pvd(self.folder / f"{series}.pvd"))
 
+    def _written(self, series):
+        return (self.folder / f"{series}.pvd").is_file()
+
+    def _times_of(self, series):
+        if series is None or not self._written(series):
+            return self.times
+        return numpy.array([time for time, _ in self._rows(series)])
+
+    def _dataset_at(self, series, row):
+        """The data set of a row of its own series."""
+        if not self._written(series):
+            return self._dataset(series, row)
+        time, path = self._rows(series)[row]
+        return Dataset(_sinew._read_vtu(path), series, time)
+
     def _dataset(self, series, index):
+        """The data set at the time of a frame."""
         time = self.times[index]
-        if series == "volume" and "volume" not in self.series:
+        if series == "volume" and not self._written("volume"):
             cells = self._once("cells", lambda: _sinew._RunCells(self._files))
             return Dataset(cells.at(index, self._dataset("particles", index)._data), series, time)
-        if series not in self.series:
-            raise _sinew.Error(f"this run has no series {series!r}; take one of {', '.join(self.series)}")
-        rows = self._rows(series)
-        times = numpy.array([row[0] for row in rows])
+        self._check(series)
+        times = self._times_of(series)
         at = int(numpy.argmin(abs(times - time))) if len(times) else 0
         if not len(times) or abs(times[at] - time) > 1e-6:
             raise _sinew.Error(f"{series} have no frame at {time} s; the run may be in progress")
-        return Dataset(_sinew._read_vtu(rows[at][1]), series, time)
+        return self._dataset_at(series, at)
 
     def __repr__(self):
         span = f"{self.times[0]:.6g} to {self.times[-1]:.6g} s" if len(self) else "none"
         return (f"<sinew.Run {os.fspath(self.folder)!r}: {len(self)} frames, {span}; {len(self.rest)} particles, "
                 f"{len(self.bone_names)} bones>")
+
+
+def measure(folder):
+    """The columns of a run's metrics.csv, computed anew: a dict of arrays."""
+    return _sinew._measure(_sinew._open_run(folder))
 
 
 def open_run(folder):

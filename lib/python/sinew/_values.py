@@ -3,6 +3,8 @@
 import json
 import os
 
+from . import _sinew
+
 
 def _text(value):
     """As JSON, whose pairs of surrogates YAML does not know."""
@@ -24,7 +26,18 @@ def yaml(value):
 
 def pairs(settings):
     """Paths and YAML of those that are given."""
-    return [(path, yaml(value)) for path, value in settings.items() if value is not None]
+    found = []
+    for path, value in settings.items():
+        try:
+            if value is not None:
+                found.append((path, yaml(value)))
+        except TypeError:
+            raise _sinew.Error(f"{path} is {value!r}; give a number, a text or a list") from None
+    return found
+
+
+def is_path(value):
+    return isinstance(value, (str, bytes, os.PathLike))
 
 
 class Findings(dict):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lets Debian 12's ParaView load plugins in Python: it asks for a function that Python 3.11 has no longer.
+"""Lets Debian 12's ParaView load plugins in Python: it asks for a function that Python 3.11 no longer has.
 
 PYTHONPATH=FOLDER-OF-THIS-FILE paraview; the package sinew-paraview needs no such word.
 """

@@ -22,6 +22,12 @@ def part(run, name):
     return found
 
 
+def times_of(run):
+    """ParaView has a number where there is one time, and nothing where there is none."""
+    times = run.TimestepValues
+    return list(times) if hasattr(times, "__len__") and len(times) else [times or 0]
+
+
 def range_over_time(source, name, times):
     """Of three moments: a run may have thousands."""
     spans = []
@@ -57,7 +63,7 @@ def show_particles(run, view):
     particles = part(run, "particles")
     shown = Show(particles, view)
     as_spheres(shown)
-    color_by_first_of(shown, particles, ("strain_eq", "bone"), list(run.TimestepValues) or [0])
+    color_by_first_of(shown, particles, ("strain_eq", "bone"), times_of(run))
 
 
 def show_surface(run, view, color, name, opacity):

@@ -5,7 +5,7 @@ import contextlib
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 
@@ -46,6 +46,15 @@ def leaves(data):
         found.append(at.GetCurrentDataObject())
         at.GoToNextItem()
     return found
+
+
+def block_named(data, name):
+    """The data set of that name in a composite; None: there is none."""
+    if isinstance(data, vtkMultiBlockDataSet):
+        for i in range(data.GetNumberOfBlocks()):
+            if data.HasMetaData(i) and data.GetMetaData(i).Get(vtkCompositeDataSet.NAME()) == name:
+                return data.GetBlock(i)
+    return None
 
 
 def requested_time(info):

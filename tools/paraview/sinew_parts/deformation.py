@@ -5,31 +5,46 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSet, vtkPolyData, vtkStaticPointLocator
 
-from .common import Refused, leaves, vtk_array
+from .common import Refused, block_named, leaves, vtk_array
 
 ID_NAMES = ("id", "ID", "Id", "ids", "particle_id", "GlobalIds", "GlobalNodeId", "GlobalPointIds", "vtkOriginalPointIds")
 PAIRS_AT_ONCE = 1 << 22
 
 
-def points_of(data):
-    """Positions and ids of all points, ascending by id where they have ids."""
+def ids_of(data):
+    found = [data.GetPointData().GetArray(name) for name in ID_NAMES if data.GetPointData().GetArray(name)]
+    return found[0] if found else None
+
+
+def point_sets(data):
+    """The data sets whose points count: of a run the particles, of other composites those with ids, or all."""
     sets = [leaf for leaf in leaves(data) if isinstance(leaf, vtkDataSet) and leaf.GetNumberOfPoints()]
     if not sets:
-        raise Refused("the input has no points")
+        raise Refused("the input has no points; of a table, apply Table To Points first")
+    particles = block_named(data, "particles")
+    if particles and particles in sets:
+        return [particles]
+    return [one for one in sets if ids_of(one)] or sets
+
+
+def points_of(data):
+    """Positions and ids of all points; no ids where they have none."""
     positions, ids = [], []
-    for one in sets:
+    for one in point_sets(data):
         if hasattr(one, "GetPoints") and one.GetPoints():
             positions.append(vtk_to_numpy(one.GetPoints().GetData()).astype(float))
         else:
             positions.append(numpy.array([one.GetPoint(i) for i in range(one.GetNumberOfPoints())]))
-        found = [one.GetPointData().GetArray(name) for name in ID_NAMES if one.GetPointData().GetArray(name)]
-        ids.append(vtk_to_numpy(found[0]).astype(numpy.int64) if found else None)
-    if any(one is None for one in ids):
-        return numpy.concatenate(positions), None
+        ids.append(vtk_to_numpy(ids_of(one)) if ids_of(one) else None)
+    positions = numpy.concatenate(positions)
+    if not numpy.isfinite(positions).all():
+        raise Refused("the coordinates of a point are not finite; remove such points (Threshold)")
+    if ids[0] is None:
+        return positions, None
     ids = numpy.concatenate(ids)
     if len(numpy.unique(ids)) != len(ids):
         raise Refused("several points have the same id; each needs one of its own")
-    return numpy.concatenate(positions), ids
+    return positions, ids
 
 
 def cells_of(points, size):
@@ -155,7 +170,7 @@ def fill_points(output, data, positions):
     number = len(positions)
     cells.SetData(numpy_to_vtkIdTypeArray(numpy.arange(number + 1), deep=1), numpy_to_vtkIdTypeArray(numpy.arange(number), deep=1))
     output.SetCells(1, cells)
-    sets = [leaf for leaf in leaves(data) if isinstance(leaf, vtkDataSet) and leaf.GetNumberOfPoints()]
+    sets = point_sets(data)
     if len(sets) == 1:
         output.GetPointData().ShallowCopy(sets[0].GetPointData())
 

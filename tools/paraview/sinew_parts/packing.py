@@ -104,11 +104,17 @@ class ByCommand:
         self.name = f"command {path}"
 
     def _run(self, *words):
-        done = subprocess.run([self.path, *words, "--json", "--quiet"], capture_output=True, text=True, errors="replace")
+        try:
+            done = subprocess.run([self.path, *words, "--json", "--quiet"], capture_output=True, text=True, errors="replace")
+        except OSError as error:
+            raise Refused(f"{self.path}: {error.strerror}; set SINEW to the path of the command sinew") from None
         if done.returncode:
             lines = [line for line in done.stderr.splitlines() if line.startswith("sinew: ")] or [done.stderr or "it failed"]
             raise Refused(lines[-1].removeprefix("sinew: "))
-        return json.loads(done.stdout)
+        try:
+            return json.loads(done.stdout)
+        except ValueError:
+            raise Refused(f"{self.path} does not answer as sinew does; set SINEW to the path of the command sinew") from None
 
     @staticmethod
     def _read(path):

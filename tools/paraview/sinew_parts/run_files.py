@@ -21,7 +21,7 @@ def rows_of(pvd):
         return []
     except ET.ParseError as error:
         raise Refused(f"{pvd}: {error}; restore it from a copy, or run the scene again") from None
-    return [(float(row.get("timestep")), os.path.join(os.path.dirname(pvd), row.get("file"))) for row in rows]
+    return [(float(row.get("timestep", "nan")), os.path.join(os.path.dirname(pvd), row.get("file", ""))) for row in rows]
 
 
 def folder_of_run(file):
@@ -33,10 +33,17 @@ def folder_of_run(file):
     return folder
 
 
+def time_of(path):
+    """When a file was changed, ns; 0: it is not there."""
+    try:
+        return os.stat(path).st_mtime_ns
+    except OSError:
+        return 0
+
+
 def state_of(folder):
     """Changes whenever a series has more frames."""
-    paths = [os.path.join(folder, f"{name}.pvd") for name in SERIES]
-    return folder, [os.stat(path).st_mtime_ns if os.path.exists(path) else 0 for path in paths]
+    return folder, [time_of(os.path.join(folder, f"{name}.pvd")) for name in SERIES]
 
 
 def open_series(folder):
@@ -45,40 +52,53 @@ def open_series(folder):
     return [OpenSeries(name, rows) for name, rows in found if rows]
 
 
+def readable(path):
+    """Whether a file is complete XML."""
+    try:
+        ET.parse(path)
+    except (OSError, ET.ParseError):
+        return False
+    return True
+
+
 class OpenSeries:
     """The files of one series, read by ParaView's own reader."""
 
     def __init__(self, name, rows):
         self.name, self.rows = name, rows
-        self.reader = vtkXMLUnstructuredGridReader()
+        self.reader, self.number = vtkXMLUnstructuredGridReader(), 0
 
     def choose(self, selection):
-        """Offers its arrays, and reads those that are chosen."""
-        self.reader.SetFileName(self.rows[0][1])
-        self.reader.UpdateInformation()
-        for own in (self.reader.GetPointDataArraySelection(), self.reader.GetCellDataArraySelection()):
-            for i in range(own.GetNumberOfArrays()):
-                name = f"{self.name}: {own.GetArrayName(i)}"
-                if not selection.ArrayExists(name):
-                    selection.AddArray(name)
+        """Offers its arrays: those of the first frame that can be read."""
+        for _, path in (self.rows[0], self.rows[len(self.rows) // 2], self.rows[-1]):
+            self.reader.SetFileName(path)
+            self.reader.UpdateInformation()
+            if self._own_arrays():
+                break
+        for _, name in self._own_arrays():
+            if not selection.ArrayExists(f"{self.name}: {name}"):
+                selection.AddArray(f"{self.name}: {name}")
+
+    def _own_arrays(self):
+        """Pairs of the reader's selections and a name."""
+        own = (self.reader.GetPointDataArraySelection(), self.reader.GetCellDataArraySelection())
+        return [(one, one.GetArrayName(i)) for one in own for i in range(one.GetNumberOfArrays())]
 
     def apply(self, selection):
-        for own in (self.reader.GetPointDataArraySelection(), self.reader.GetCellDataArraySelection()):
-            for i in range(own.GetNumberOfArrays()):
-                name = own.GetArrayName(i)
-                own.SetArraySetting(name, int(selection.ArrayIsEnabled(f"{self.name}: {name}")))
+        for own, name in self._own_arrays():
+            own.SetArraySetting(name, int(selection.ArrayIsEnabled(f"{self.name}: {name}")))
 
     def at(self, time, selection):
-        """The frame at a time or the last before it; None: there is none yet."""
-        row = max((row for row in self.rows if row[0] <= time + 1e-9 * abs(time)), default=None)
-        if row is None:
-            return None
+        """The frame at a time or the last before it; before all of them the first."""
+        row = max((row for row in self.rows if row[0] <= time + 1e-9 * abs(time)), default=self.rows[0])
         self.reader.SetFileName(row[1])
         self.reader.UpdateInformation()
         self.apply(selection)
         self.reader.Update()
-        if self.reader.GetErrorCode():
+        number = self.reader.GetOutput().GetNumberOfPoints()
+        if number == 0 and (self.number or not readable(row[1])):  # all frames of a series have the same points
             raise Refused(f"{row[1]}: cannot be read; see sinew info {os.path.dirname(os.path.dirname(row[1]))} --verify")
+        self.number = number
         shown = vtkUnstructuredGrid()
         shown.ShallowCopy(self.reader.GetOutput())
         return shown
@@ -131,7 +151,7 @@ def wide_table(columns):
     return table
 
 
-def table_of(folder, name):
+def table_of(path):
     """Columns of numbers, or lists of texts, by their names."""
-    columns = read_csv(os.path.join(folder, f"{name}.csv"))
-    return plain_table(columns) if name == "metrics" else wide_table(columns)
+    columns = read_csv(path)
+    return plain_table(columns) if os.path.basename(path) == "metrics.csv" else wide_table(columns)
