@@ -115,7 +115,7 @@ class Reader(SmallRun):
 
     def test_a_run_that_goes_on(self):
         """Reloading it, or what ParaView asks every second, brings the frames that were added."""
-        words = ["simulate", "--quiet", self.scene, "-o", self.out, "--set", "body.radius=0.015", "--set", "solver.duration=2",
+        words = ["simulate", "--quiet", self.scene, "-o", self.out, "--set", "body.radius=0.015", "--set", "solver.duration=12",
                  "--set", "output.interval=0.05", "--set", "output.checkpoint_interval=0.5"]
         going = subprocess.Popen([BIN / "sinew", *words])
         try:
