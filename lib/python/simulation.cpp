@@ -190,6 +190,7 @@ class Stepped {
                         prepared.filled.particles.radius, body.skeleton, body.binding);
     skin_at_rest_ = prepared.surface.triangles;
     output_ = prepared.settings.output;
+    if (faces_.empty()) output_.skin = "none";  // nor is anything measured for it
     frame_scene_.surface = skin_at_rest_;
     frame_scene_.obstacles = prepared.obstacles;
     frame_scene_.neighbors = body.neighbors;

@@ -390,8 +390,9 @@ class Page(SmallRun):
         for module in ("nbconvert", "ipykernel"):
             if not self.importable(module):
                 self.skipTest(f"without {module}")
+        own = {key: value for key, value in os.environ.items() if key != "MPLBACKEND"}  # pictures are drawn into the page
         done = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "html", "--execute", "--output-dir", self.folder,
-                               SOURCE / "lib/examples/mesh_to_report.ipynb"], capture_output=True, text=True, timeout=300)
+                               SOURCE / "lib/examples/mesh_to_report.ipynb"], capture_output=True, text=True, timeout=300, env=own)
         self.assertEqual(done.returncode, 0, done.stderr)
         page = (self.folder / "mesh_to_report.html").read_text()
         self.assertEqual(page.count("<img"), 3)
