@@ -81,7 +81,7 @@ inline std::shared_ptr<Dataset> shared(Dataset data) {
 
 /// A row for each value, as a view of `column`, which `owner` keeps.
 inline py::array rows_of(const Column& column, const py::object& owner) {
-  const py::array flat =
+  py::array flat =
       std::visit([&](const auto& values) { return view_of(values, owner); }, column.values);
   const py::ssize_t components = column.components;
   if (components == 1) return flat;

@@ -48,6 +48,7 @@ class PolygonsByPlace {
       if (found == at_.end()) return -1;
       if (!fewest || found->second.size() < fewest->size()) fewest = &found->second;
     }
+    if (!fewest) return -1;
     for (const std::size_t polygon : *fewest)
       if (holds(soup_.polygons[polygon], places, corners)) return static_cast<int>(polygon);
     return -1;
