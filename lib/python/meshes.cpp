@@ -154,7 +154,9 @@ void bind_surface(py::module_& module) {
 }  // namespace
 
 void bind_meshes(py::module_& module) {
-  py::class_<SharedPolygons>(module, "_Polygons");
+  py::class_<SharedPolygons>(module, "_Polygons").def("__len__", [](const SharedPolygons& mesh) {
+    return (*mesh).polygons.size();
+  });
   bind_surface(module);
   module.def("_polygons", [](const py::object& vertices, const py::object& faces) {
     return SharedPolygons(polygons_of(vertices, faces));
