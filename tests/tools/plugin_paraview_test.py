@@ -162,6 +162,20 @@ class Reader(SmallRun):
         numpy.testing.assert_array_equal(vtk_to_numpy(found.GetColumnByName("upper moment_y")),
                                          [float(row[names.index("moment_y")]) for row in upper])
 
+    def test_tables_of_supports_and_probes(self):
+        """Each beside the others, by its name, which may be a number."""
+        scene = self.folder / "pull.yaml"
+        text = (SOURCE / "configs/bar_pull.yaml").read_text().replace("../data", str(SOURCE / "data"))
+        scene.write_text(text.replace("name: middle", "name: '7'").replace("name: corner", "name: '8'"))
+        command("simulate", "--quiet", scene, "-o", self.out, "--set", "solver.duration=0.1", "output.interval=0.05", check=0)
+        for name, columns in (("probes", ["7 z", "8 displacement_z"]), ("supports", ["grip force_z", "clamp force_z", "hand power"])):
+            table = SinewTables(FileName=str(self.out / "run.json"), Table=name)
+            table.UpdatePipeline()
+            found = servermanager.Fetch(table)
+            names = [found.GetColumnName(i) for i in range(found.GetNumberOfColumns())]
+            self.assertEqual(found.GetNumberOfRows(), 3)
+            self.assertLessEqual({"time", *columns}, set(names))
+
     def test_tables_are_read_again(self):
         self.simulate("--set", "body.radius=0.04")
         table = SinewTables(FileName=str(self.out / "run.json"), Table="metrics")

@@ -219,8 +219,8 @@ def new(mesh, rig=None, scene=None, faces=None, force=False):
 def info(path, settings=None, radius=None, verify=False, drawing=None):
     """What is in a mesh, rig, clip, scene or run, as `sinew info --json` has it: a dict, with `warnings`.
 
-    `settings` as of read_scene(), of a mesh those of its section: {"body.unit": "mm"}; `radius` (m): how fast a rig moves such particles; `verify`
-    compares a run with its checksums; `drawing`: a .vtu file of the mesh's defects to be written."""
+    `settings` as of read_scene(), of a mesh those of its section: {"body.unit": "mm"}; `radius` (m): how fast a rig moves
+    such particles; `verify` compares a run with its checksums; `drawing`: a .vtu file of the mesh's defects to be written."""
     drawn = os.fspath(drawing) if drawing is not None else ""
     if not is_path(path):
         raise _sinew.Error("info() describes files; of arrays use diagnose()")
@@ -249,7 +249,7 @@ def _repr(body):
 
 
 _sinew.Body.report = property(_report, doc="What filling found, by name, as body.vtu keeps it.")
-_sinew.Body.to_vtk = lambda body: particles_of_body(body)
+_sinew.Body.to_vtk = particles_of_body
 _sinew.Body.to_pyvista = lambda body: pyvista_of(particles_of_body(body))
 _sinew.Body.to_trimesh = _to_trimesh
 _sinew.Body.__repr__ = _repr

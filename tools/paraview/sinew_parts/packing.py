@@ -16,7 +16,6 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridRead
 
 from .common import Refused, leaves, texts, vtk_array
 
-
 PACKINGS = ("fcc", "hcp", "random", "conformal")
 RULES = ("union", "hollow")
 
@@ -88,9 +87,8 @@ class ByModule:
             raise Refused(error) from None
 
     def diagnose(self, mesh, options):
-        kept = {key: value for key, value in options.items() if key in ("close_holes", "rule")}
         try:
-            found = self.module.diagnose(mesh, **kept)
+            found = self.module.diagnose(mesh, **options)
             return found.to_vtk(), dict(found), found.warnings
         except self.module.Error as error:
             raise Refused(error) from None
@@ -145,11 +143,10 @@ class ByCommand:
             return grid, report, warnings
 
     def diagnose(self, mesh, options):
-        kept = {key: value for key, value in options.items() if key in ("close_holes", "rule")}
         with tempfile.TemporaryDirectory(prefix="sinew-") as folder:
             given, drawn = os.path.join(folder, "mesh.vtp"), os.path.join(folder, "defects.vtu")
             write_polygons(mesh, given)
-            found = self._run("info", given, *self._flags(kept), "-o", drawn)
+            found = self._run("info", given, *self._flags(options), "-o", drawn)
             warnings = found.pop("warnings", [])
             for key in ("file", "drawing"):
                 found.pop(key, None)

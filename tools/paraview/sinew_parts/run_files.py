@@ -12,6 +12,8 @@ from .common import Refused
 
 SERIES = ("particles", "surface", "volume", "bones", "frames", "obstacles", "supports", "bonds")
 TABLES = ("metrics", "bones", "supports", "probes")
+OWNERS = ("bone", "name")  # columns that say whose a row is
+
 
 def rows_of(pvd):
     """Times and files that a PVD names; none where it is not there."""
@@ -21,7 +23,10 @@ def rows_of(pvd):
         return []
     except ET.ParseError as error:
         raise Refused(f"{pvd}: {error}; restore it from a copy, or run the scene again") from None
-    return [(float(row.get("timestep", "nan")), os.path.join(os.path.dirname(pvd), row.get("file", ""))) for row in rows]
+    rows = [(row.get("timestep"), row.get("file")) for row in rows]
+    if any(None in row for row in rows):
+        raise Refused(f"{pvd}: a row has no timestep or no file; restore it from a copy, or run the scene again")
+    return [(float(time), os.path.join(os.path.dirname(pvd), file)) for time, file in rows]
 
 
 def folder_of_run(file):
@@ -134,17 +139,17 @@ def plain_table(columns):
 
 def wide_table(columns):
     """A row for each time: the columns of each bone, support or probe beside each other, by its name."""
-    kinds = [name for name, values in columns.items() if column(values) is None]
-    if not kinds or "time" not in columns:
+    owners = [name for name in OWNERS if name in columns]
+    if not owners or "time" not in columns:
         return plain_table(columns)
-    owner, times = columns[kinds[0]], column(columns["time"])
+    owner, times = columns[owners[0]], column(columns["time"])
     steps, row_of = numpy.unique(times, return_inverse=True)
     table = {"time": steps}
     for who in dict.fromkeys(owner):
         of = numpy.array([name == who for name in owner])
         for name, values in columns.items():
             numbers = column(values)
-            if name == "time" or numbers is None:
+            if name in ("time", owners[0]) or numbers is None:
                 continue
             table[f"{who} {name}"] = numpy.full(len(steps), numpy.nan)
             table[f"{who} {name}"][row_of[of]] = numbers[of]
