@@ -217,6 +217,8 @@ class Results(SmallRun):
         self.assertEqual([frame.time for frame in run[3:9:2]], [run[i].time for i in (3, 5, 7)])
         numpy.testing.assert_array_equal(run[-4:].times, run.times[-4:])
         self.assertEqual(len(run[2:][:3][1:]), 2)
+        for name in ("rest", "times", "faces"):
+            self.assertEqual(getattr(run, name).ctypes.data, getattr(run, name).ctypes.data)
         surfaces = run.frames("surface")
         self.assertEqual(len(surfaces), 13)
         numpy.testing.assert_array_equal(surfaces[5].points, run[5].surface)

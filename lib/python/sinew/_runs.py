@@ -197,12 +197,12 @@ class Run:
     @property
     def times(self):
         """Of the frames, s."""
-        return self._files.times
+        return self._once("times", lambda: self._files.times)
 
     @property
     def rest(self):
         """Positions of the particles at rest (n, 3), m."""
-        return self._files.rest
+        return self._once("rest", lambda: self._files.rest)
 
     @property
     def radius(self):
