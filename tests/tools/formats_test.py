@@ -240,6 +240,9 @@ json.dump({{"places": [list(b.state.pos) for b in O.bodies], "mass": sum(b.state
         copy.write_bytes(Path(self.mesh).read_bytes())
         self.assert_one_line(sinew("fill", copy, "--radius", 0.03, "--to", "lammps", "-o", copy), 2, "is an input")
         self.assertEqual(copy.read_bytes(), Path(self.mesh).read_bytes())
+        text = self.scene.read_text()  # another scene than the input
+        self.assert_one_line(sinew("fill", copy, "--radius", 0.03, "--to", "xyz", "-o", self.scene), 2, "is a scene, and would be")
+        self.assertEqual(self.scene.read_text(), text)
 
     def test_names_are_checked(self):
         self.assert_one_line(sinew("fill", self.mesh, "--radius", 0.03, "-o", self.folder / "a.txt"), 2, "yade",

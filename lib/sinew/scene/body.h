@@ -38,7 +38,8 @@ bool is_scene(const std::filesystem::path& path);
 /// Throws bad input for a mesh or a BVH file, by its extension, where a scene is expected.
 void refuse_mesh_as_scene(const std::string& path);
 
-/// Throws Error (bad input) for an output of another extension, or that is one of the inputs.
+/// Throws Error (bad input) for an output of another extension, that is one of the inputs, or a
+/// scene.
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs,
                    const std::string& extension = ".vtu");
 
