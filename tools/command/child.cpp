@@ -31,10 +31,15 @@ bool ignores_hangup() {
   return sigaction(SIGHUP, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
+void catch_lost_reader() {
+  struct sigaction action {};
+  action.sa_handler = remember;
+  sigaction(SIGPIPE, &action, nullptr);
+}
+
 void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = remember;
-  sigaction(SIGPIPE, &action, nullptr);  // who reads the progress has left
   // Both the kernel and the shell report a closed terminal: the second signal adds nothing.
   if (!ignores_hangup()) sigaction(SIGHUP, &action, nullptr);
   action.sa_flags = static_cast<int>(SA_RESETHAND);

@@ -21,9 +21,11 @@ namespace sinew {
 /// Whether SIGHUP was ignored when the program began, as under nohup.
 bool ignores_hangup();
 
+/// Makes SIGPIPE only set the flag from now on: whoever reads the progress has left.
+void catch_lost_reader();
+
 /// Makes SIGINT and SIGTERM only set a flag from now on; a second one ends the program at once.
-/// SIGHUP, unless ignored, also sets the flag, however often it is received, and so does SIGPIPE:
-/// whoever reads the progress has left.
+/// SIGHUP, unless ignored, also sets the flag, however often it is received.
 void catch_stop_signals();
 
 bool stop_requested();

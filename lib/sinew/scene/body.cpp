@@ -79,13 +79,13 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
     throw bad_input("'" + output + "' is no name for a " + extension + " file",
                     "give a name that ends in " + extension);
   std::error_code missing;
-  if (is_scene(output) && std::filesystem::exists(output, missing))
-    throw bad_input(Place{output}, "is a scene, and would be replaced",
-                    "give another name with -o");
   for (const std::string& input : inputs)
     if (std::filesystem::equivalent(output, input, missing))
       throw bad_input(Place{output}, "is an input, and would be replaced",
                       "give another name with -o");
+  if (is_scene(output) && std::filesystem::exists(output, missing))
+    throw bad_input(Place{output}, "is a scene, and would be replaced",
+                    "give another name with -o");
 }
 
 Mat3 lattice_axes(const BodyOptions& body) {
