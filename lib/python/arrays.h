@@ -100,6 +100,7 @@ inline py::array rows_of(Column column) {
 
 void bind_meshes(py::module_& module);
 void bind_datasets(py::module_& module);
+void bind_deformation(py::module_& module);
 void bind_scenes(py::module_& module);
 void bind_inspection(py::module_& module);
 void bind_simulation(py::module_& module);

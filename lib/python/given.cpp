@@ -102,25 +102,40 @@ void add_faces(const py::object& faces, PolygonSoup& soup) {
   add_rows(WholeNumbers(array), soup);
 }
 
-}  // namespace
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-Points points_of(const py::object& given, const std::string& name) {
+Numbers rows_of_three(const py::object& given, const std::string& name) {
   const py::array array = array_of(given);
   if (!array) throw bad_input(name + " are no array", "give an array of shape (n, 3)");
   if (array.size() > 0 && array.dtype().kind() != 'f' && !is_whole(array))
     throw bad_input(name + " are of type " + type_text(array), "give numbers, of shape (n, 3)");
   if (array.ndim() != 2 || array.shape(1) != 3)
     throw bad_input(name + " have the shape " + shape_text(array), "give an array of shape (n, 3)");
-  using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-  const Numbers numbers(array);
+  return array;
+}
+
+/// Refuses what can not be computed with, but for points that `may_be` takes.
+template <class MayBe>
+Points checked_points(const Numbers& numbers, const std::string& name, MayBe may_be) {
   Points points(static_cast<std::size_t>(numbers.shape(0)));
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i] = Eigen::Map<const Vec3>(numbers.data() + 3 * i);
-    if (!is_computable(points[i]))
+    if (!is_computable(points[i]) && !may_be(points[i]))
       throw bad_input(name + '[' + std::to_string(i) + "] is too large or not finite",
                       "give numbers that can be computed with");
   }
   return points;
+}
+
+}  // namespace
+
+Points points_of(const py::object& given, const std::string& name) {
+  return checked_points(rows_of_three(given, name), name, [](const Vec3&) { return false; });
+}
+
+Points known_points_of(const py::object& given, const std::string& name) {
+  return checked_points(rows_of_three(given, name), name,
+                        [](const Vec3& point) { return point.hasNaN(); });
 }
 
 PolygonSoup polygons_of(const py::object& vertices, const py::object& faces) {

@@ -22,6 +22,9 @@ namespace py = pybind11;
 /// no number, and for numbers too large to be computed with.
 Points points_of(const py::object& given, const std::string& name);
 
+/// The same of points some of which may be unknown: not-a-number.
+Points known_points_of(const py::object& given, const std::string& name);
+
 /// The polygons of a mesh: `faces` are m x k integers, a list of lists, or as VTK has them the
 /// number of corners before those of each polygon. Throws bad input that names "vertices" or
 /// "faces", and the entry, for what cannot be a mesh.

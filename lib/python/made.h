@@ -8,6 +8,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <sinew/core/deformation.h>
 #include <sinew/sinew.h>
 
 namespace pybind11::detail {
@@ -36,6 +37,8 @@ template <>
 class type_caster<sinew::Surface> : public made_caster<sinew::Surface> {};
 template <>
 class type_caster<sinew::Dataset> : public made_caster<sinew::Dataset> {};
+template <>
+class type_caster<sinew::RestShape> : public made_caster<sinew::RestShape> {};
 template <>
 class type_caster<sinew::RunFiles> : public made_caster<sinew::RunFiles> {};
 template <>

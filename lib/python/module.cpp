@@ -33,6 +33,7 @@ PYBIND11_MODULE(_sinew, module) {
       py::cpp_function(&sinew::python::WithoutGil::let_all_end));
   sinew::python::bind_meshes(module);
   sinew::python::bind_datasets(module);
+  sinew::python::bind_deformation(module);
   sinew::python::bind_scenes(module);
   sinew::python::bind_inspection(module);
   sinew::python::bind_simulation(module);

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bare.sh [--suite trixie] [--tests] [--without-each] [--objects BUILD]: what the README says first, on a machine that
 # has never seen the project: a bare root of Debian 12 (bookworm) or another release, as bare_root.sh makes it. There
-# it builds this checkout's commit with tools/demo.sh, runs a scene of a mesh, installs ParaView and looks at both runs
-# with it. --tests runs tests/run.sh as well; --without-each breaks optional packages, each in turn, and configures.
+# it builds this checkout's commit with tools/demo.sh, runs a scene of a mesh, builds the Python package, installs
+# ParaView and looks at both runs with it. --tests runs tests/run.sh as well; --without-each breaks optional packages,
+# each in turn, and configures.
 # --objects spares compiling again what a finished build of this checkout has compiled: see object_files.sh.
 # Logs and what ParaView shows are left in build/bare/SUITE. As root; takes a quarter of an hour and 5 GB.
 set -euo pipefail
@@ -75,6 +76,16 @@ look() {
   cp "$root/root/$1" "$logs/"
 }
 
+# By the page's own lines: what it installs and builds, and its first recipe.
+python_package() {
+  local page=lib/python/README.md
+  in_clone "$(sed -n 's/^    sudo \(apt-get\) \(install pybind11.*\)/\1 -qq -y \2/p' $page)"
+  in_clone "$(sed -n 's/^    sudo \(apt-get\) \(install python3-meshio.*\)/\1 -qq -y \2/p' $page)"
+  awk '/^```python/ {inside = 1; next} /^```/ && inside {exit} inside' $page > "$root/root/recipe.py"
+  echo 'print(body); assert len(body) > 1000' >> "$root/root/recipe.py"
+  in_clone "PYTHONPATH=build/python /usr/bin/python3 /root/recipe.py"
+}
+
 tests() { in_clone tests/run.sh; }
 
 # Prints what configuring reports as left out.
@@ -112,6 +123,7 @@ stage demo in_clone tools/demo.sh
 [ -z "$objects" ] || compiled_anew
 stage own_mesh own_mesh
 stage files check_runs
+stage python_package python_package
 stage paraview in_root apt-get -qq install -y --no-install-recommends paraview
 stage view look view.png "build/bin/sinew view out/box_bend"
 stage state look state.png "paraview --state=$own/view.pvsm"

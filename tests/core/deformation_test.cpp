@@ -91,6 +91,42 @@ TEST(DeformationGradient, IsDefinedForEveryParticleOfAPackedBox) {
   for (std::size_t i = 0; i < rest.points.size(); ++i) EXPECT_TRUE(rest.defined(i));
 }
 
+TEST(AffineFit, IsThatOfThePointsThatAreThere) {
+  const RestShape rest = box_shape();
+  std::mt19937 random(5);
+  const Mat3 F = Mat3::Identity() + random_matrix(random);
+  Points now = affine(rest.points, F);
+  const std::size_t gone = now.size() / 2, moved = 0;
+  now[gone].setConstant(std::numeric_limits<double>::quiet_NaN());
+  now[moved] += Vec3(0.001, 0, 0);
+  const auto near_moved = rest.neighbors.of(moved);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const AffineFit fit = affine_fit(rest, now, i);
+    const bool beside = std::find(near_moved.begin(), near_moved.end(), i) != near_moved.end();
+    if (i == gone) {
+      EXPECT_TRUE(fit.F.hasNaN() && std::isnan(fit.D2min));
+    } else if (i == moved || beside) {
+      EXPECT_GT((fit.F - F).norm(), 1e-3);
+    } else {
+      ASSERT_LT((fit.F - F).cwiseAbs().maxCoeff(), 1e-12) << i;
+      EXPECT_LT(fit.D2min, 1e-28);
+    }
+  }
+}
+
+TEST(AffineFit, LeavesTheMeanSquareOfWhatIsNotAffine) {
+  // Six neighbors on the axes: a motion that is even in dX has no affine part.
+  const Points points{{0, 0, 0},  {1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
+                      {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  Points now = points;
+  for (std::size_t i = 1; i <= 2; ++i) now[i] += Vec3(0, 0.3, 0);
+  const RestShape rest = rest_shape(points, 1.1);
+  const AffineFit fit = affine_fit(rest, now, 0);
+  EXPECT_LT((fit.F - Mat3::Identity()).norm(), 1e-15);
+  EXPECT_NEAR(fit.D2min, 2 * 0.09 / 6, 1e-15);
+  EXPECT_NEAR(non_affine(rest, now, fit.F, 0), fit.D2min, 1e-15);
+}
+
 TEST(RotationPart, SplitsStretchFromRotation) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 50; ++trial) {

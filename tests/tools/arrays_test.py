@@ -106,6 +106,36 @@ class Arrays(SmallRun):
         self.assertAlmostEqual(sinew.winding_number(V, F[:5], [[1, 0.5, 0.5]])[0], 0.5, places=9)  # on the cap that is not there
         self.assertTrue(numpy.isnan(sinew.winding_number(V, F, [[0, 0.5, 0.5]])[0]))
 
+    def test_deformation_of_any_points_in_closed_form(self):
+        random = numpy.random.default_rng(5)
+        points = numpy.stack(numpy.meshgrid(*[numpy.arange(8.0)] * 3), -1).reshape(-1, 3) + 0.2 * random.random((512, 3))
+        rest = sinew.RestShape(points, 2.0)
+        self.assertEqual(len(rest), 512)
+        self.assertRegex(repr(rest), r"<sinew.RestShape of 512 points, \d+ pairs>")
+        F = numpy.eye(3) + 0.3 * random.random((3, 3))
+        for order in ("C", "F"):
+            now = numpy.asarray(points @ F.T + [1, 2, 3], order=order)
+            found, left = rest.gradients(now)
+            numpy.testing.assert_allclose(found, numpy.tile(F, (512, 1, 1)), rtol=0, atol=1e-12)
+            numpy.testing.assert_allclose(left, 0, atol=1e-24)
+        now[::7] = numpy.nan
+        found, left = rest.gradients(now)
+        self.assertTrue(numpy.isnan(found[::7]).all() and numpy.isnan(left[::7]).all())
+        known = numpy.isfinite(left)
+        self.assertGreater(known.sum(), 420)
+        numpy.testing.assert_allclose(found[known], numpy.tile(F, (known.sum(), 1, 1)), rtol=0, atol=1e-12)
+        self.assertTrue(numpy.isnan(sinew.RestShape(points * [1, 1, 0], 2.0).gradients(points)[0]).all())
+        for arguments, words in (((points, 0), "cutoff"), ((points, numpy.nan), "cutoff"), ((points[:, :2], 1), "points"),
+                                 ((points * numpy.nan, 1), "points[0]")):
+            with self.assertRaisesRegex(sinew.Error, re.escape(words)):
+                sinew.RestShape(*arguments)
+        for given in (points[:5], points[0], points * numpy.inf, points > 0):
+            with self.assertRaisesRegex(sinew.Error, "now"):
+                rest.gradients(given)
+        self.assertEqual(len(sinew.RestShape(numpy.zeros((0, 3)), 1).gradients(numpy.zeros((0, 3)))[0]), 0)
+        with self.assertRaises(TypeError):
+            sinew.RestShape.__new__(sinew.RestShape).gradients(points)
+
     def test_diagnosis_says_what_is_wrong_and_where(self):
         V, F = read_arrays("arm.ply")
         whole = sinew.diagnose(V, F)

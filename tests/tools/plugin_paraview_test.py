@@ -317,7 +317,7 @@ class Packing(SmallRun):
         os.environ["SINEW"] = str(BIN / "sinew")
 
 
-def cloud(positions, ids=None):
+def cloud(positions, ids=None, name="id"):
     """Points of a source."""
     source = ProgrammableSource(OutputDataSetType="vtkPolyData")
     source.Script = (f"import numpy\nfrom vtkmodules.util.numpy_support import numpy_to_vtk\n"
@@ -325,7 +325,7 @@ def cloud(positions, ids=None):
                      f"values = numpy.frombuffer(bytes.fromhex('{numpy.ascontiguousarray(positions, float).tobytes().hex()}')).reshape(-1, 3)\n"
                      "places = vtkPoints()\nplaces.SetData(numpy_to_vtk(values, deep=1))\noutput.VTKObject.SetPoints(places)\n")
     if ids is not None:
-        source.Script += (f"ids = numpy_to_vtk(numpy.array({list(map(int, ids))}), deep=1)\nids.SetName('id')\n"
+        source.Script += (f"ids = numpy_to_vtk(numpy.array({list(map(int, ids))}), deep=1)\nids.SetName('{name}')\n"
                           "output.VTKObject.GetPointData().AddArray(ids)\n")
     return source
 
@@ -372,6 +372,56 @@ class Deformed(SmallRun):
         known = numpy.isfinite(found["J"])  # not at corners that have lost their neighbors
         self.assertGreater(known.sum(), 430)
         numpy.testing.assert_allclose(found["J"][known], 1.5 ** 3, rtol=1e-12)
+
+    def test_what_tells_points_apart(self):
+        order = self.random.permutation(500)
+        now = 1.2 * self.rest[order]
+        sources = [cloud(self.rest, numpy.arange(500), "tag"), cloud(now, order, "tag")]
+        found = fetched(Deformation(Reference=sources[0], Input=sources[1], IdArray="tag"))
+        numpy.testing.assert_allclose(arrays(found.GetPointData())["J"], 1.2 ** 3, rtol=1e-12)
+        self.assertIn("python3-sinew" if MODULE else "NumPy", field(found, "found_by"))
+        for ids, properties, words in (((range(500), None), {}, "at rest have ids"), ((None, range(500)), {}, "later moment have ids"),
+                                       ((range(500), range(500)), {"IdArray": "tag"}, "no array tag"),
+                                       ((range(500), range(500, 1000)), {}, "no id is in both")):
+            with Messages() as messages:
+                self.deformation(self.rest, now, ids, **properties)
+            self.assertIn(words, messages.text)
+
+    def test_the_package_and_numpy_find_the_same(self):
+        if not MODULE:
+            self.skipTest("without the package")
+        from sinew_parts import deformation
+        now = self.rest + 0.05 * self.random.random((500, 3))
+        now[::9] = numpy.nan
+        rest = numpy.vstack([self.rest, [[50, 0, 0], [50.5, 0, 0]]])  # too few to have a gradient
+        now = numpy.vstack([now, rest[-2:]])
+        for cutoff in (0.85, 1.3):
+            one = deformation.ByNumPy(rest, cutoff).gradients(now)
+            other = deformation.ByModule(deformation.package("RestShape"), rest, cutoff).gradients(now)
+            self.assertGreater(numpy.isfinite(one[1]).sum(), 300)
+            self.assertTrue(numpy.isnan(one[0][-2:]).all())
+            for a, b in zip(one, other):
+                numpy.testing.assert_allclose(a, b, rtol=0, atol=1e-12)
+
+    def test_moments_of_one_filter_are_those_of_fresh_ones(self):
+        """Whatever it keeps between moments, and however its properties and its input change."""
+        self.simulate("--set", "output.only=particles")
+        run = SinewRun(FileName=str(self.out / "run.json"))
+        kept = Deformation(Input=run)
+        for time, properties in ((0.2, {}), (0.1, {}), (0.1, {"ReferenceTime": 0.2}), (0.3, {"ReferenceTime": 0.2}),
+                                 (0.3, {"ReferenceTime": 0.2, "Cutoff": 0.09}), (0.2, {"Cutoff": 0.09})):
+            kept.ReferenceTime, kept.Cutoff = properties.get("ReferenceTime", 0), properties.get("Cutoff", 0)
+            found, fresh = (fetched(one, time) for one in (kept, Deformation(Input=run, **properties)))
+            for name, values in arrays(fresh.GetPointData()).items():
+                numpy.testing.assert_array_equal(arrays(found.GetPointData())[name], values, name)
+        moved = Transform(Input=run)
+        kept = Deformation(Input=moved)
+        before = points(fetched(kept, 0.2))
+        moved.Transform.Scale = [2, 2, 2]
+        after = fetched(kept, 0.2)
+        numpy.testing.assert_allclose(points(after), 2 * before, rtol=1e-6)
+        expected = arrays(fetched(Deformation(Input=run), 0.2).GetPointData())["J"]
+        numpy.testing.assert_allclose(arrays(after.GetPointData())["J"], expected, rtol=1e-4)
 
     def test_what_an_affine_motion_does_not_explain(self):
         """Neighbors of a point that moves by itself: D2min is the mean of its own motion's square over them."""

@@ -60,6 +60,14 @@ class Commands(SmallRun):
         self.assertEqual(record["frames"], 13)
         self.assertEqual(list(self.folder.rglob("*.tmp")), [])
 
+    def test_a_run_that_begins_in_a_pose_says_what_relaxing_took(self):
+        pose = "- time: 0\n          axis: [0, 1, 0]\n          angle: 40\n"
+        self.scene.write_text(self.scene.read_text().replace("- time: 0\n", pose, 1))
+        self.simulate("--set", "motion.begin=rest")
+        self.assertNotIn("relaxing", self.record()["seconds"])
+        self.simulate("--force", "--set", "motion.begin=pose")
+        self.assertGreater(self.record()["seconds"]["relaxing"], 0)
+
     def test_bones_csv_has_a_row_per_bone_and_frame(self):
         self.simulate()
         rows = list(csv.DictReader((self.out / "bones.csv").open()))

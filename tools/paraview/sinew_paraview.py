@@ -267,8 +267,9 @@ class Deformation(VTKPythonAlgorithmBase):
 
     def __init__(self):
         super().__init__(nInputPorts=2, nOutputPorts=1, outputType="vtkUnstructuredGrid")
-        self._reference_time, self._cutoff = 0.0, 0.0
-        self._kept = None
+        self._reference_time, self._cutoff, self._id_array = 0.0, 0.0, ""
+        self._kept, self._stamp = None, None
+        self._seeks_rest, self._second_round = False, False
 
     @smproperty.doublevector(name="ReferenceTime", default_values=0.0)
     def SetReferenceTime(self, time):
@@ -282,6 +283,12 @@ class Deformation(VTKPythonAlgorithmBase):
         self._cutoff = cutoff
         self.Modified()
 
+    @smproperty.stringvector(name="IdArray", default_values="")
+    def SetIdArray(self, name):
+        """The array that tells points apart; empty: one of the usual names (id, particle_id, GlobalIds)."""
+        self._id_array = name or ""
+        self.Modified()
+
     def FillInputPortInformation(self, port, info):
         info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject")
         if port == 1:
@@ -289,42 +296,57 @@ class Deformation(VTKPythonAlgorithmBase):
         return 1
 
     def RequestUpdateExtent(self, request, inInfo, outInfo):
-        """First the moment at rest, then, in a second round, the wanted one."""
+        """First the moment at rest, where it is not kept, then, in a second round, the wanted one."""
         asked = requested_time(outInfo.GetInformationObject(0))
         keys = vtkStreamingDemandDrivenPipeline
+        if not self._second_round:
+            self._seeks_rest = not self._has_reference(inInfo) and (self._kept is None or self._stamp != self._stamp_now())
         for port in (0, 1):
             if inInfo[port].GetNumberOfInformationObjects() == 0:
                 continue
             source = inInfo[port].GetInformationObject(0)
             if source.Has(keys.TIME_STEPS()) and source.Length(keys.TIME_STEPS()) > 0:
                 wanted = source.Get(keys.TIME_STEPS(), 0) if asked is None else asked
-                at_rest = port == 1 or (self._kept is None and not self._has_reference(inInfo))
-                source.Set(keys.UPDATE_TIME_STEP(), self._reference_time if at_rest else wanted)
+                source.Set(keys.UPDATE_TIME_STEP(), self._reference_time if port == 1 or self._seeks_rest else wanted)
         return 1
 
     @staticmethod
     def _has_reference(inInfo):
         return inInfo[1].GetNumberOfInformationObjects() > 0
 
+    def _stamp_now(self):
+        """Changes with whatever decides about the points at rest."""
+        return self.GetInputExecutive(0, 0).GetPipelineMTime(), self._reference_time, self._id_array
+
     def RequestData(self, request, inInfo, outInfo):
+        request.Remove(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING())
+        self._second_round = False
         with errors_shown(self):
             rest = self._rest(inInfo)
             if rest is None:
+                self._second_round = True
                 request.Set(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING(), 1)
-                return 1
-            deformation.add_deformation(vtkUnstructuredGrid.GetData(outInfo, 0), rest, vtkDataObject.GetData(inInfo[0], 0),
-                                        self._cutoff)
-        self._kept = None
-        request.Remove(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING())
+            else:
+                deformation.add_deformation(vtkUnstructuredGrid.GetData(outInfo, 0), rest, vtkDataObject.GetData(inInfo[0], 0),
+                                            self._cutoff, self._id_array)
         return 1
 
     def _rest(self, inInfo):
-        """Positions and ids at rest; None: they were what has come, and the wanted moment is needed."""
+        """The points at rest; None: they were what has come, and the wanted moment is needed."""
         if self._has_reference(inInfo):
-            return deformation.points_of(vtkDataObject.GetData(inInfo[1], 0))
+            self._stamp = None
+            return self._keep(vtkDataObject.GetData(inInfo[1], 0))
         if not inInfo[0].GetInformationObject(0).Has(vtkStreamingDemandDrivenPipeline.TIME_STEPS()):
             raise Refused("the input has one moment; give the moment at rest as the second input, Reference")
-        if self._kept is None:
-            self._kept = deformation.points_of(vtkDataObject.GetData(inInfo[0], 0))
-            return None
+        if not self._seeks_rest:
+            return self._kept
+        self._keep(vtkDataObject.GetData(inInfo[0], 0))
+        self._stamp, self._seeks_rest = self._stamp_now(), False
+        return None
+
+    def _keep(self, data):
+        """What was found for the same points before is kept with them."""
+        found = deformation.Rest(data, self._id_array)
+        if self._kept is None or not self._kept.is_like(found):
+            self._kept = found
         return self._kept

@@ -10,13 +10,12 @@ from ._data import Dataset, vtk_composite as _composite
 from ._meshes import Diagnosis, Mesh, NewScene, check, diagnose, distance, fill, info, new, polygons_of as _polygons_of, \
     repair, tetrahedra, winding_number
 from ._runs import Frame, Frames, Run, measure, open_run
-from ._sinew import Body, Error, Scene, Simulation, __version__
+from ._sinew import Body, Error, RestShape, Scene, Simulation, __version__
 from ._values import Findings, is_path as _is_path, pairs as _pairs, yaml as _yaml
 
-__all__ = ["Body", "Dataset", "Diagnosis", "Error", "Findings", "Frame", "Frames", "Mesh", "NewScene", "Run", "Scene",
-           "Simulation", "check", "diagnose", "distance", "fill", "info", "make_scene", "measure", "new", "open_run",
-           "read_scene", "repair", "simulate", "tetrahedra",
-           "winding_number"]
+__all__ = ["Body", "Dataset", "Diagnosis", "Error", "Findings", "Frame", "Frames", "Mesh", "NewScene", "RestShape", "Run",
+           "Scene", "Simulation", "check", "diagnose", "distance", "fill", "info", "make_scene", "measure", "new", "open_run",
+           "read_scene", "repair", "simulate", "tetrahedra", "winding_number"]
 
 
 def read_scene(path, settings=None):

@@ -45,6 +45,18 @@ class Diagnosis(Findings):
     holes: NDArray[np.int32]
     def to_vtk(self) -> Any: ...
 
+class RestShape:
+    """Points at rest, of any program; those closer than `cutoff` are neighbors, found once. Deformation of a later moment
+    is the least-squares fit over them (Falk and Langer 1998)."""
+
+    def __init__(self, points: ArrayLike, cutoff: float) -> None: ...
+    @property
+    def points(self) -> NDArray[np.float64]: ...
+    def __len__(self) -> int: ...
+    def gradients(self, now: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """F (n, 3, 3) and the mean of |dx - F dX|^2 over the neighbors (n,), of the points (n, 3) at `now`, in the same
+        order; not-a-number for points that are so there, and where the neighbors lie in a plane."""
+
 class Body:
     """Particles at rest, filled by fill() or made from arrays."""
 

@@ -3,6 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
 
 #include <sinew/core/parallel.h>
 
@@ -29,13 +31,28 @@ Mat3 shortest_rotation(const Vec3& from, const Vec3& to) {
   return Quat(twice_w / 2, v.x(), v.y(), v.z()).toRotationMatrix();
 }
 
-Mat3 spread_of(const RestShape& rest, std::size_t i) {
+template <class Counts>
+Mat3 spread_of(const RestShape& rest, std::size_t i, Counts counts) {
   Mat3 spread = Mat3::Zero();
   for (const auto j : rest.neighbors.of(i)) {
+    if (!counts(j)) continue;
     const Vec3 offset = rest.points[j] - rest.points[i];
     spread += offset * offset.transpose();
   }
   return spread;
+}
+
+Mat3 spread_of(const RestShape& rest, std::size_t i) {
+  return spread_of(rest, i, [](std::uint32_t) { return true; });
+}
+
+/// The inverse over those neighbors that are there now.
+Mat3 inverse_of_present(const RestShape& rest, const Points& now, std::size_t i) {
+  const auto is_there = [&](std::uint32_t j) { return now[j].allFinite(); };
+  const auto neighbors = rest.neighbors.of(i);
+  if (!is_there(static_cast<std::uint32_t>(i))) return Mat3::Zero();
+  if (std::all_of(neighbors.begin(), neighbors.end(), is_there)) return rest.inverse[i];
+  return inverse_or_zero(spread_of(rest, i, is_there));
 }
 
 }  // namespace
@@ -66,6 +83,36 @@ Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i) {
 Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i) {
   if (!rest.defined(i)) return Mat3::Identity();
   return moved_spread(rest, now, i) * rest.inverse[i];
+}
+
+double non_affine(const RestShape& rest, const Points& now, const Mat3& F, std::size_t i) {
+  double sum = 0;
+  const auto neighbors = rest.neighbors.of(i);
+  for (const auto j : neighbors)
+    sum += ((now[j] - now[i]) - F * (rest.points[j] - rest.points[i])).squaredNorm();
+  return sum / static_cast<double>(neighbors.size());
+}
+
+AffineFit affine_fit(const RestShape& rest, const Points& now, std::size_t i) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const Mat3 inverse = inverse_of_present(rest, now, i);
+  if (inverse.isZero(0)) return {Mat3::Constant(unknown), unknown};
+  AffineFit fit{Mat3::Zero(), 0};
+  for (int pass = 0; pass < 2; ++pass) {
+    Mat3 moved = Mat3::Zero();
+    double squares = 0, count = 0;
+    for (const auto j : rest.neighbors.of(i)) {
+      const Vec3 at_rest = rest.points[j] - rest.points[i];
+      const Vec3 left = now[j] - now[i] - fit.F * at_rest;
+      if (!left.allFinite()) continue;
+      moved += left * at_rest.transpose();
+      squares += left.squaredNorm();
+      ++count;
+    }
+    fit.D2min = squares / count;
+    fit.F += moved * inverse;
+  }
+  return fit;
 }
 
 Mat3 rotation_part(const Mat3& F) {

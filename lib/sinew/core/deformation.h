@@ -32,6 +32,21 @@ Mat3 moved_spread(const RestShape& rest, const Points& now, std::size_t i);
 /// F of point i when the points have moved to `now` (n x 3, m); identity where it is undefined.
 Mat3 deformation_gradient(const RestShape& rest, const Points& now, std::size_t i);
 
+/// Mean |dx - F dX|^2 over the neighbors of point i at rest (m^2): motion that F does not explain.
+/// D2min of Falk and Langer (1998) is the sum.
+double non_affine(const RestShape& rest, const Points& now, const Mat3& F, std::size_t i);
+
+/// The affine motion of a point's neighborhood, and what it leaves.
+struct AffineFit {
+  Mat3 F;
+  double D2min;  ///< mean |dx - F dX|^2, m^2
+};
+
+/// The same of points some of which may be gone: not-a-number in `now`, and no one's neighbors. A
+/// second pass, over what the first F leaves, is exact to rounding for neighborhoods of any shape.
+/// Not-a-number where it is undefined.
+AffineFit affine_fit(const RestShape& rest, const Points& now, std::size_t i);
+
 /// The rotation R of the polar decomposition F = R U; proper (det R = 1) for inverted F as well,
 /// and the shortest one where F keeps only a line.
 Mat3 rotation_part(const Mat3& F);

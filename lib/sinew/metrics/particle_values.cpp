@@ -29,14 +29,6 @@ double equivalent(const Vec3& principal, double factor) {
   return std::sqrt(factor * (principal.array() - mean).square().sum());
 }
 
-double non_affine(const RestShape& shape, const Points& now, const Mat3& F, std::size_t i) {
-  double sum = 0;
-  const auto neighbors = shape.neighbors.of(i);
-  for (const auto j : neighbors)
-    sum += ((now[j] - now[i]) - F * (shape.points[j] - shape.points[i])).squaredNorm();
-  return sum / static_cast<double>(neighbors.size());
-}
-
 void add_motion(ParticleValues& out, const RestBody& rest, const FrameState& state) {
   for_each_particle(rest.particles(), [&](std::size_t i) {
     out.displacement[i] = (state.positions[i] - rest.shape.points[i]).norm();

@@ -22,6 +22,15 @@ def errors_shown(algorithm):
         vtkOutputWindow.GetInstance().DisplayErrorText(f"ERROR: {type(algorithm).__name__}: {refused}\n")
 
 
+def package(name):
+    """The Python package sinew, where it can be imported and has that name; else None."""
+    try:
+        import sinew
+        return sinew if hasattr(sinew, name) else None
+    except ImportError:
+        return None
+
+
 def vtk_array(name, values, kind=None):
     array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=1, array_type=kind)
     array.SetName(name)

@@ -5,18 +5,19 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSet, vtkPolyData, vtkStaticPointLocator
 
-from .common import Refused, block_named, leaves, vtk_array
+from .common import Refused, block_named, leaves, package, texts, vtk_array
 
 ID_NAMES = ("id", "ID", "Id", "ids", "particle_id", "GlobalIds", "GlobalNodeId", "GlobalPointIds", "vtkOriginalPointIds")
 PAIRS_AT_ONCE = 1 << 22
 
 
-def ids_of(data):
-    found = [data.GetPointData().GetArray(name) for name in ID_NAMES if data.GetPointData().GetArray(name)]
-    return found[0] if found else None
+def ids_of(data, id_array):
+    """The array of that name, or without a name one that usually has ids; None: there is none."""
+    found = [data.GetPointData().GetArray(name) for name in ([id_array] if id_array else ID_NAMES)]
+    return next((array for array in found if array), None)
 
 
-def point_sets(data):
+def point_sets(data, id_array):
     """The data sets whose points count: of a run the particles, of other composites those with ids, or all."""
     sets = [leaf for leaf in leaves(data) if isinstance(leaf, vtkDataSet) and leaf.GetNumberOfPoints()]
     if not sets:
@@ -24,18 +25,22 @@ def point_sets(data):
     particles = block_named(data, "particles")
     if particles and particles in sets:
         return [particles]
-    return [one for one in sets if ids_of(one)] or sets
+    with_ids = [one for one in sets if ids_of(one, id_array)]
+    if id_array and not with_ids:
+        raise Refused(f"there is no array {id_array} of points; set IdArray to the one that tells points apart, or to nothing")
+    return with_ids or sets
 
 
-def points_of(data):
+def points_of(data, id_array):
     """Positions and ids of all points; no ids where they have none."""
     positions, ids = [], []
-    for one in point_sets(data):
+    for one in point_sets(data, id_array):
         if hasattr(one, "GetPoints") and one.GetPoints():
             positions.append(vtk_to_numpy(one.GetPoints().GetData()).astype(float))
         else:
             positions.append(numpy.array([one.GetPoint(i) for i in range(one.GetNumberOfPoints())]))
-        ids.append(vtk_to_numpy(ids_of(one)) if ids_of(one) else None)
+        found = ids_of(one, id_array)
+        ids.append(vtk_to_numpy(found) if found else None)
     positions = numpy.concatenate(positions)
     if not numpy.isfinite(positions).all():
         raise Refused("the coordinates of a point are not finite; remove such points (Threshold)")
@@ -99,38 +104,79 @@ def usual_cutoff(points):
 
 def inverses(matrices):
     """Of symmetric 3 x 3 matrices (9, n); not-a-number where the neighbors lie in one plane."""
-    a, b, c, _, e, f, _, _, i = matrices
-    adjugate = numpy.stack([e * i - f * f, c * f - b * i, b * f - c * e, c * f - b * i, a * i - c * c, b * c - a * f,
-                            b * f - c * e, b * c - a * f, a * e - b * b])
-    det = a * adjugate[0] + b * adjugate[1] + c * adjugate[2]
-    defined = det > 1e-6 * ((a + e + i) / 3) ** 3
-    return numpy.where(defined, adjugate / numpy.where(defined, det, 1), numpy.nan).T.reshape(-1, 3, 3)
+    matrices = matrices.T.reshape(-1, 3, 3)
+    sizes = numpy.linalg.eigvalsh(matrices)
+    defined = sizes[:, 0] > 1e-6 * sizes[:, 2]
+    found = numpy.full_like(matrices, numpy.nan)
+    found[defined] = numpy.linalg.inv(matrices[defined])
+    return found
 
 
-def gradients(rest, now, cutoff):
-    """F = (sum dx dX^T) (sum dX dX^T)^-1 over neighbors at rest, and the mean of |dx - F dX|^2. Not-a-number where
-    the neighbors lie in one plane. A second pass, over what the first F leaves, makes it exact to rounding."""
-    number = len(rest)
-    spread, F, inverse = numpy.zeros((9, number)), numpy.zeros((number, 3, 3)), None
-    for _ in range(2):
-        moved, squares, counts = numpy.zeros((9, number)), numpy.zeros(number), numpy.zeros(number)
-        for i, j in pairs_within(rest, cutoff):
-            at_rest, left = rest[j] - rest[i], now[j] - now[i]
-            known = numpy.isfinite(left).all(1)
-            i, at_rest, left = i[known], at_rest[known], left[known]
-            left = left - numpy.einsum("nab,nb->na", F[i], at_rest)
-            counts += numpy.bincount(i, minlength=number)
-            squares += numpy.bincount(i, (left ** 2).sum(1), number)
-            for a in range(3):
-                for b in range(3):
-                    moved[3 * a + b] += numpy.bincount(i, left[:, a] * at_rest[:, b], number)
-                    if inverse is None:
-                        spread[3 * a + b] += numpy.bincount(i, at_rest[:, a] * at_rest[:, b], number)
-        if inverse is None:
-            inverse = inverses(spread)
-        F = F + moved.T.reshape(-1, 3, 3) @ inverse
-    with numpy.errstate(invalid="ignore", divide="ignore"):
-        return F, numpy.where(numpy.isfinite(F[:, 0, 0]), squares / counts, numpy.nan)
+class ByNumPy:
+    """Points at rest, whose neighbors are sought anew for each moment."""
+    name = "NumPy (python3-sinew is not found)"
+
+    def __init__(self, points, cutoff):
+        self.points, self.cutoff = points, cutoff
+
+    def gradients(self, now):
+        """F = (sum dx dX^T) (sum dX dX^T)^-1 over neighbors at rest, and the mean of |dx - F dX|^2. Not-a-number where
+        the neighbors lie in one plane. A second pass, over what the first F leaves, makes it exact to rounding."""
+        rest, number = self.points, len(self.points)
+        spread, F, inverse = numpy.zeros((9, number)), numpy.zeros((number, 3, 3)), None
+        for _ in range(2):
+            moved, squares, counts = numpy.zeros((9, number)), numpy.zeros(number), numpy.zeros(number)
+            for i, j in pairs_within(rest, self.cutoff):
+                at_rest, left = rest[j] - rest[i], now[j] - now[i]
+                known = numpy.isfinite(left).all(1)
+                i, at_rest, left = i[known], at_rest[known], left[known]
+                left = left - numpy.einsum("nab,nb->na", F[i], at_rest)
+                counts += numpy.bincount(i, minlength=number)
+                squares += numpy.bincount(i, (left ** 2).sum(1), number)
+                for a in range(3):
+                    for b in range(3):
+                        moved[3 * a + b] += numpy.bincount(i, left[:, a] * at_rest[:, b], number)
+                        if inverse is None:
+                            spread[3 * a + b] += numpy.bincount(i, at_rest[:, a] * at_rest[:, b], number)
+            if inverse is None:
+                inverse = inverses(spread)
+            F = F + moved.T.reshape(-1, 3, 3) @ inverse
+        with numpy.errstate(invalid="ignore", divide="ignore"):
+            return F, numpy.where(numpy.isfinite(F[:, 0, 0]), squares / counts, numpy.nan)
+
+
+class ByModule:
+    """Points at rest, whose neighbors the package sinew finds once."""
+
+    def __init__(self, module, points, cutoff):
+        self.name = f"python3-sinew {module.__version__}"
+        try:
+            self._shape = module.RestShape(points, cutoff)
+        except module.Error as error:
+            raise Refused(f"{error}; or set a smaller Cutoff") from None
+
+    def gradients(self, now):
+        return self._shape.gradients(now)
+
+
+class Rest:
+    """The points at rest with their ids, and what is found for them once."""
+
+    def __init__(self, data, id_array):
+        self.points, self.ids = points_of(data, id_array)
+        self._fit = None, None
+
+    def is_like(self, other):
+        return numpy.array_equal(self.points, other.points) and numpy.array_equal(self.ids, other.ids)
+
+    def fit(self, cutoff):
+        """What finds gradients over neighbors closer than the cutoff; 0: the usual one."""
+        if self._fit[0] != cutoff:
+            range_of_neighbors = cutoff or usual_cutoff(self.points)
+            module = package("RestShape")
+            kind = (lambda *given: ByModule(module, *given)) if module else ByNumPy
+            self._fit = cutoff, kind(self.points, range_of_neighbors)
+        return self._fit[1]
 
 
 def determinants(F):
@@ -162,7 +208,7 @@ def deformation_arrays(F, away):
 COMPONENTS = {9: ("XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"), 6: ("XX", "YY", "ZZ", "XY", "YZ", "XZ"), 3: ("1", "2", "3")}
 
 
-def fill_points(output, data, positions):
+def fill_points(output, sets, positions):
     """The points of the input as vertices, with their arrays where they are in one data set."""
     places, cells = vtkPoints(), vtkCellArray()
     places.SetData(numpy_to_vtk(positions, deep=1))
@@ -170,37 +216,43 @@ def fill_points(output, data, positions):
     number = len(positions)
     cells.SetData(numpy_to_vtkIdTypeArray(numpy.arange(number + 1), deep=1), numpy_to_vtkIdTypeArray(numpy.arange(number), deep=1))
     output.SetCells(1, cells)
-    sets = point_sets(data)
     if len(sets) == 1:
         output.GetPointData().ShallowCopy(sets[0].GetPointData())
 
 
-def matched(reference, present):
+def matched(reference, now, ids):
     """Places of the reference's points now, and of each present point in the reference; -1: it was not there."""
-    (rest, rest_ids), (now, ids) = reference, present
-    if ids is None or rest_ids is None:
+    rest, rest_ids = reference.points, reference.ids
+    if (ids is None) != (rest_ids is None):
+        raise Refused(f"only the points {'at rest' if ids is None else 'of the later moment'} have ids; give ids to both, or "
+                      "to neither (Pass Arrays), to match them by their order")
+    if ids is None:
         if len(rest) != len(now):
             raise Refused(f"there are {len(rest)} points at rest and {len(now)} later, and no ids (an array `id`) to match them by")
         return now, numpy.arange(len(now))
     order = numpy.argsort(rest_ids)
     at = numpy.minimum(numpy.searchsorted(rest_ids[order], ids), len(order) - 1)
     place = numpy.where(rest_ids[order][at] == ids, order[at], -1)
+    if not (place >= 0).any():
+        raise Refused("no id is in both moments; set IdArray to the array that tells points apart")
     moved = numpy.full_like(rest, numpy.nan)
     moved[place[place >= 0]] = now[place >= 0]
     return moved, place
 
 
-def add_deformation(output, reference, data, cutoff):
+def add_deformation(output, reference, data, cutoff, id_array):
     """The points of `data` with what has happened to them since the reference."""
     if cutoff < 0:
         raise Refused("the cutoff is below 0; give 0, or the range of neighbors")
-    present = points_of(data)
-    moved, place = matched(reference, present)
-    arrays = deformation_arrays(*gradients(reference[0], moved, cutoff or usual_cutoff(reference[0])))
-    fill_points(output, data, present[0])
+    now, ids = points_of(data, id_array)
+    moved, place = matched(reference, now, ids)
+    fit = reference.fit(cutoff)
+    arrays = deformation_arrays(*fit.gradients(moved))
+    fill_points(output, point_sets(data, id_array), now)
     for name, values in arrays.items():
         placed = numpy.where((place >= 0).reshape(-1, *[1] * (values.ndim - 1)), values[place], numpy.nan)
         array = vtk_array(name, placed)
         for component, label in enumerate(COMPONENTS.get(array.GetNumberOfComponents(), ())):
             array.SetComponentName(component, label)
         output.GetPointData().AddArray(array)
+    output.GetFieldData().AddArray(texts("found_by", [fit.name]))

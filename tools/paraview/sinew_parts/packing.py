@@ -14,7 +14,7 @@ from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkImplicitPolyDataDist
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridReader
 
-from .common import Refused, leaves, texts, vtk_array
+from .common import Refused, leaves, package, texts, vtk_array
 
 PACKINGS = ("fcc", "hcp", "random", "conformal")
 RULES = ("union", "hollow")
@@ -59,14 +59,6 @@ def polygons_of(data):
         points.DeepCopy(merged.GetPoints())
         merged.SetPoints(points)
     return merged
-
-
-def importable():
-    try:
-        import sinew
-        return sinew if hasattr(sinew, "diagnose") else None
-    except ImportError:
-        return None
 
 
 class ByModule:
@@ -171,7 +163,7 @@ def write_polygons(mesh, path):
 
 
 def engine():
-    module = importable()
+    module = package("diagnose")
     if module:
         return ByModule(module)
     command = os.environ.get("SINEW") or shutil.which("sinew")

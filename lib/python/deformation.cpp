@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Deformation of any points, by their neighbors at rest.
+#include "arrays.h"
+#include "given.h"
+
+#include <sinew/core/deformation.h>
+#include <sinew/core/parallel.h>
+
+#include "without_gil.h"
+
+namespace sinew::python {
+namespace {
+
+std::shared_ptr<RestShape> shape_of(const py::object& points, double cutoff) {
+  Points at_rest = points_of(points, "points");
+  if (!(cutoff > 0) || !std::isfinite(cutoff))
+    throw bad_input("the cutoff is " + number_text(cutoff),
+                    "give a length above 0: points closer than this are neighbors");
+  const WithoutGil free;
+  return std::make_shared<RestShape>(rest_shape(std::move(at_rest), cutoff));
+}
+
+/// F, (n, 3, 3), and D2min, (n,).
+py::tuple fits_of(const RestShape& rest, const py::object& given) {
+  const Points now = known_points_of(given, "now");
+  const std::size_t count = rest.points.size();
+  if (now.size() != count)
+    throw bad_input("now are " + std::to_string(now.size()) + " points, and " +
+                        std::to_string(count) + " at rest",
+                    "give them all, in the same order; not-a-number where one is gone");
+  const auto rows = static_cast<py::ssize_t>(count);
+  py::array_t<double> F({rows, py::ssize_t{3}, py::ssize_t{3}}), D2min(rows);
+  double *to = F.mutable_data(), *left = D2min.mutable_data();
+  {
+    const WithoutGil free;
+    parallel_for(count, 1024, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const AffineFit fit = affine_fit(rest, now, i);
+        Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(to + 9 * i) = fit.F;
+        left[i] = fit.D2min;
+      }
+    });
+  }
+  return py::make_tuple(std::move(F), std::move(D2min));
+}
+
+}  // namespace
+
+void bind_deformation(py::module_& module) {
+  py::class_<RestShape, std::shared_ptr<RestShape>>(
+      module, "RestShape",
+      "Points (n, 3) at rest; those closer than `cutoff` are neighbors, found once. The "
+      "deformation "
+      "gradient of a later moment is the least-squares fit over them (Falk and Langer 1998).")
+      .def(py::init(&shape_of), py::arg("points"), py::arg("cutoff"))
+      .def("__len__", [](const RestShape& rest) { return rest.points.size(); })
+      .def("__repr__",
+           [](const RestShape& rest) {
+             return "<sinew.RestShape of " + std::to_string(rest.points.size()) + " points, " +
+                    std::to_string(rest.neighbors.neighbor.size() / 2) + " pairs>";
+           })
+      .def_property_readonly(
+          "points",
+          [](const py::object& self) { return view_of(self.cast<RestShape&>().points, self); })
+      .def("gradients", &fits_of, py::arg("now"),
+           "Deformation gradients F (n, 3, 3) and D2min (n,), the mean of |dx - F dX|^2 over the "
+           "neighbors, when the points have moved to `now` (n, 3), in the same order. Points that "
+           "are gone are not-a-number there; so is the result where the neighbors lie in a plane.");
+}
+
+}  // namespace sinew::python
