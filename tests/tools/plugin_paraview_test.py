@@ -405,7 +405,7 @@ class Deformed(SmallRun):
 
     def test_moments_of_one_filter_are_those_of_fresh_ones(self):
         """Whatever it keeps between moments, and however its properties and its input change."""
-        self.simulate("--set", "output.only=particles")
+        self.simulate()
         run = SinewRun(FileName=str(self.out / "run.json"))
         kept = Deformation(Input=run)
         for time, properties in ((0.2, {}), (0.1, {}), (0.1, {"ReferenceTime": 0.2}), (0.3, {"ReferenceTime": 0.2}),
