@@ -125,8 +125,10 @@ class Reader(SmallRun):
             first = len(run.TimestepValues)
             self.assertGreaterEqual(first, 3)
             self.wait_for(lambda: self.rows() > first)
+            keeper = GetTimeKeeper()
+            self.assertEqual(len(keeper.TimestepValues), first)
             self.assertTrue(run.GetClientSideObject().GetNeedsUpdate())
-            run.UpdatePipelineInformation()
+            self.assertGreater(len(keeper.TimestepValues), first)  # the window's list of times
             self.assertGreater(len(run.TimestepValues), first)
             self.assertIn("particles", blocks(fetched(run, run.TimestepValues[-1])))
         finally:

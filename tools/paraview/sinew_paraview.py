@@ -24,7 +24,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 if os.path.dirname(os.path.abspath(__file__)) not in sys.path:
     sys.path.append(os.path.dirname(os.path.abspath(__file__)))
 from sinew_parts import deformation, packing, run_files
-from sinew_parts.common import Refused, errors_shown, publish_times, requested_time, texts, vtk_array
+from sinew_parts.common import Refused, ask_for_times, errors_shown, publish_times, requested_time, texts, vtk_array
 
 
 def choice(name, words, default=0):
@@ -91,6 +91,7 @@ class SinewRun(VTKPythonAlgorithmBase):
         with contextlib.suppress(Refused, OSError):
             if self._seen is not None and self._state() != self._seen:
                 self.Modified()
+                ask_for_times(self)
                 return True
         return False
 

@@ -100,6 +100,7 @@ def show_run(run=None, view=None):
         show_surface(run, view, OBSTACLES, "obstacles", 1)
     if "bones" in names:
         show_bones(run, view)
+    GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     view.ResetCamera()
     Render(view)
 

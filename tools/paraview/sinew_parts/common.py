@@ -71,6 +71,23 @@ def requested_time(info):
     return info.Get(key) if info.Has(key) else None
 
 
+def ask_for_times(algorithm):
+    """Makes the window ask a reader for its times again: of a live source, ParaView reads only the data again. Does nothing
+    where the reader is on a server."""
+    from paraview.modules.vtkRemotingServerManager import vtkSMProxyIterator, vtkSMProxyManager
+    session = vtkSMProxyManager.GetProxyManager().GetActiveSession()
+    if not session:
+        return
+    at = vtkSMProxyIterator()
+    at.SetSession(session)
+    at.SetModeToOneGroup()
+    at.Begin("sources")
+    while not at.IsAtEnd():
+        if at.GetProxy().GetClientSideObject() is algorithm:
+            at.GetProxy().UpdatePipelineInformation()
+        at.Next()
+
+
 def publish_times(info, times):
     keys = vtkStreamingDemandDrivenPipeline
     info.Remove(keys.TIME_STEPS())
