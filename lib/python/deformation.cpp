@@ -11,12 +11,32 @@
 namespace sinew::python {
 namespace {
 
+/// As so many as some of them have. Refused where memory ends.
+void refuse_too_many_pairs(const Points& points, double cutoff) {
+  constexpr std::size_t asked = 200;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / asked);
+  const CellGrid grid(points, cutoff);
+  std::vector<std::uint32_t> found;
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < points.size(); i += stride, ++from)
+    append_neighbors(grid, points, i, cutoff, found);
+  const double pairs = static_cast<double>(found.size()) /
+                       static_cast<double>(std::max<std::size_t>(1, from)) *
+                       static_cast<double>(points.size());
+  const double needed = pairs * 2 * sizeof(std::uint32_t);  // in pieces, and then together
+  if (pairs > UINT32_MAX || needed > available_memory())
+    throw bad_input("with a cutoff of " + number_text(cutoff) + " there are some " +
+                        three_digits(pairs) + " neighbors, more than there is memory for",
+                    "give a smaller cutoff");
+}
+
 std::shared_ptr<RestShape> shape_of(const py::object& points, double cutoff) {
   Points at_rest = points_of(points, "points");
   if (!(cutoff > 0) || !std::isfinite(cutoff))
     throw bad_input("the cutoff is " + number_text(cutoff),
                     "give a length above 0: points closer than this are neighbors");
   const WithoutGil free;
+  refuse_too_many_pairs(at_rest, cutoff);
   return std::make_shared<RestShape>(rest_shape(std::move(at_rest), cutoff));
 }
 

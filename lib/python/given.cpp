@@ -107,6 +107,9 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 Numbers rows_of_three(const py::object& given, const std::string& name) {
   const py::array array = array_of(given);
   if (!array) throw bad_input(name + " are no array", "give an array of shape (n, 3)");
+  if (py::hasattr(given, "mask") &&
+      py::cast<bool>(py::module_::import("numpy").attr("ma").attr("is_masked")(given)))
+    throw bad_input(name + " are masked", "leave out what is not there, or fill it with numbers");
   if (array.size() > 0 && array.dtype().kind() != 'f' && !is_whole(array))
     throw bad_input(name + " are of type " + type_text(array), "give numbers, of shape (n, 3)");
   if (array.ndim() != 2 || array.shape(1) != 3)

@@ -32,6 +32,13 @@ Dataset dataset_of(FrameData& frame, const std::string& series) {
                   "volume");
 }
 
+/// A moment, with what Python had set until then.
+struct SavedMoment {
+  SimulationState state;
+  std::optional<Posing> posing;  ///< where set_pose() was called
+  Points own_forces;
+};
+
 /// A scene's simulation, with what Python sees of it: arrays at places that stay.
 class Stepped {
  public:
@@ -46,6 +53,7 @@ class Stepped {
     run([&] { return count-- > 0; });
   }
   void run_until(double time) {
+    if (!std::isfinite(time)) throw bad_input("the time is not finite", "give seconds");
     constexpr double rounding = 1e-12;  // of times, which are numbers of steps
     run([&, end = time * (1 - rounding)] { return simulation_->time() < end; });
   }
@@ -104,6 +112,7 @@ class Stepped {
     next.turn(turned, time(), over);
     simulation_->play(next.motion());  // which may refuse: what is remembered stays true
     posing_ = std::move(next);
+    is_posed_ = true;
   }
 
   std::vector<RigidFrame> bone_frames() const {
@@ -160,13 +169,22 @@ class Stepped {
     return shared(dataset_of(*frame_data_, series));
   }
 
-  SimulationState save() const {
+  SavedMoment save() const {
     refuse_while_stepping();
-    return simulation_->save();
+    SavedMoment saved{simulation_->save(), std::nullopt, {}};
+    if (is_posed_) saved.posing = posing_;
+    if (own_forces_) saved.own_forces = own_forces_->now();
+    return saved;
   }
-  void restore(const SimulationState& state) {
+  void restore(const SavedMoment& saved) {
     refuse_while_stepping();
-    simulation_->restore(state);
+    simulation_->restore(saved.state);
+    if (is_posed_ || saved.posing) {
+      posing_ = saved.posing ? *saved.posing : *first_posing_;
+      simulation_->play(posing_->motion());
+      is_posed_ = saved.posing.has_value();
+    }
+    if (own_forces_ && !saved.own_forces.empty()) own_forces_->set(saved.own_forces);
     time_ = simulation_->time(), steps_ = simulation_->steps();
     read_at_ = taken_at_ = -1;
   }
@@ -199,7 +217,8 @@ class Stepped {
       own_forces_.emplace(body.rest.size());
       prepared.body.world = own_forces_->added_to(body.world);
     }
-    posing_.emplace(body.skeleton, prepared.motion);
+    first_posing_.emplace(body.skeleton, prepared.motion);
+    posing_ = first_posing_;
     simulation_.emplace(start(std::move(prepared)));
     read();
   }
@@ -244,7 +263,8 @@ class Stepped {
   }
 
   std::optional<Simulation> simulation_;
-  std::optional<Posing> posing_;
+  std::optional<Posing> first_posing_, posing_;
+  bool is_posed_ = false;  ///< by set_pose()
   std::optional<OwnForces> own_forces_;
   std::optional<ParticleMeter> meter_;  ///< where arrays were asked for
   OutputSettings output_;
@@ -271,7 +291,7 @@ namespace sinew::python {
 namespace {}  // namespace
 
 void bind_simulation(py::module_& module) {
-  py::class_<SimulationState>(module, "State");
+  py::class_<SavedMoment>(module, "State");
   using S = Stepped;
   const auto view = [](auto array) {
     return [array](const py::object& self) { return view_of((self.cast<S&>().*array)(), self); };

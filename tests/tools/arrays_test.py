@@ -88,6 +88,13 @@ class Arrays(SmallRun):
         written = next((self.out / "meshes").iterdir())
         numpy.testing.assert_array_equal(meshio.read(written).points, V)
 
+    def test_a_body_and_a_mesh_in_one_scene(self):
+        V, F = box()
+        body = sinew.fill(V, F, radius=0.1)
+        scene = sinew.make_scene({"skeleton": {"bones": [{"name": "a", "head": [0, 0, 0], "tail": [0, 0, 1]}]},
+                                  "solver": {"duration": 0.01}}, body=body, mesh=(V, F))
+        self.assertIn("0.1", str(scene))
+
     def test_distance_and_winding_number_in_closed_form(self):
         V, F = tetrahedron()
         points = numpy.random.default_rng(3).random((500, 3)) * 2 - 0.5
@@ -132,6 +139,12 @@ class Arrays(SmallRun):
         for given in (points[:5], points[0], points * numpy.inf, points > 0):
             with self.assertRaisesRegex(sinew.Error, "now"):
                 rest.gradients(given)
+        masked = numpy.ma.masked_greater(points, 7)
+        for ask in (lambda: sinew.RestShape(masked, 2), lambda: rest.gradients(masked)):
+            with self.assertRaisesRegex(sinew.Error, "masked"):
+                ask()
+        with self.assertRaisesRegex(sinew.Error, "smaller cutoff"):
+            sinew.RestShape(numpy.tile(points, (300, 1)), 100)
         self.assertEqual(len(sinew.RestShape(numpy.zeros((0, 3)), 1).gradients(numpy.zeros((0, 3)))[0]), 0)
         with self.assertRaises(TypeError):
             sinew.RestShape.__new__(sinew.RestShape).gradients(points)
@@ -299,6 +312,22 @@ class Results(SmallRun):
             frame["force_radial"]
         with self.assertRaisesRegex(sinew.Error, "stress"):
             frame["strss"]
+
+    def test_results_outlive_what_is_done_to_them(self):
+        """Tables are copies; a run is found from another folder."""
+        before = os.getcwd()
+        os.chdir(self.out.parent)
+        try:
+            run = sinew.open_run(self.out.name)
+            os.chdir("/")
+            self.assertIn("particles", run.series)
+            self.assertEqual(len(run[-1].dataset("bones").cells), 2)
+            for one in (run.bones, run.metrics):
+                one["time"][:] = -1
+            for one in (run.bones, run.metrics):
+                self.assertGreater(max(one["time"]), 0)
+        finally:
+            os.chdir(before)
 
     def test_bones_and_tables(self):
         frame = self.run_[6]

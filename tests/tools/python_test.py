@@ -261,6 +261,34 @@ class Made(unittest.TestCase):
             self.assertEqual(simulation.steps, 40)
         numpy.testing.assert_array_equal(*positions)
 
+    def test_a_saved_moment_has_its_pose_and_forces(self):
+        simulation = sinew.Simulation(self.scene, self.body, own_forces=True)
+        pushes = numpy.zeros((len(self.body), 3))
+        pushes[:, 1] = 1e-3
+
+        def after(time):
+            simulation.run_until(time)
+            return simulation.positions.tobytes(), simulation.bone_frames.tobytes()
+
+        name = simulation.bones[-1]
+        simulation.run_until(0.05)
+        plain = simulation.save()
+        expected = after(0.1)
+        simulation.restore(plain)
+        simulation.set_pose({name: (0.966, 0, 0.259, 0)}, over=0.1)
+        simulation.set_forces(pushes)
+        simulation.run_until(0.08)
+        turned = simulation.save()
+        bent = after(0.15)
+        self.assertNotEqual(bent, expected)
+        for state, time, result in ((plain, 0.1, expected), (turned, 0.15, bent), (plain, 0.1, expected)):
+            simulation.restore(state)
+            self.assertEqual(after(time), result)
+        other = sinew.Simulation(self.scene, self.body, own_forces=True)
+        other.restore(turned)
+        other.run_until(0.15)
+        self.assertEqual(other.positions.tobytes(), bent[0])
+
     def test_positions_are_a_view(self):
         simulation = sinew.Simulation(self.scene, self.body)
         first = simulation.positions

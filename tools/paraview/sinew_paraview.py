@@ -24,7 +24,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 if os.path.dirname(os.path.abspath(__file__)) not in sys.path:
     sys.path.append(os.path.dirname(os.path.abspath(__file__)))
 from sinew_parts import deformation, packing, run_files
-from sinew_parts.common import Refused, ask_for_times, errors_shown, publish_times, requested_time, texts, vtk_array
+from sinew_parts.common import Refused, ask_for_times, errors_shown, publish_times, requested_time, texts, updated_to, vtk_array
 
 
 def choice(name, words, default=0):
@@ -257,7 +257,8 @@ class ClosestPacking(VTKPythonAlgorithmBase):
 
 @smproxy.filter(name="Deformation", label="Deformation")
 @smhint.xml('<ShowInMenu category="sinew" />')
-@smproperty.input(name="Reference", port_index=1, multiple_input=False, none_string="ReferenceTime of the input")
+@smproperty.input(name="Reference", port_index=1, multiple_input=False, clean_command="RemoveReference",
+                  none_string="ReferenceTime of the input")
 @smdomain.datatype(dataTypes=["vtkDataObject"], composite_data_supported=True)
 @smproperty.input(name="Input", port_index=0)
 @smdomain.datatype(dataTypes=["vtkDataObject"], composite_data_supported=True)
@@ -270,7 +271,6 @@ class Deformation(VTKPythonAlgorithmBase):
         super().__init__(nInputPorts=2, nOutputPorts=1, outputType="vtkUnstructuredGrid")
         self._reference_time, self._cutoff, self._id_array = 0.0, 0.0, ""
         self._kept, self._stamp = None, None
-        self._seeks_rest, self._second_round = False, False
 
     @smproperty.doublevector(name="ReferenceTime", default_values=0.0)
     def SetReferenceTime(self, time):
@@ -279,8 +279,8 @@ class Deformation(VTKPythonAlgorithmBase):
 
     @smproperty.doublevector(name="Cutoff", default_values=0.0)
     def SetCutoff(self, cutoff):
-        """Points closer than this at rest are neighbors; 0: 1.2 times the usual distance of the
-        twelfth nearest."""
+        """Points closer than this at rest are neighbors; 0: 2.4 radii of particles that touch, of other points 1.2 times
+        the usual distance of the twelfth nearest."""
         self._cutoff = cutoff
         self.Modified()
 
@@ -296,58 +296,57 @@ class Deformation(VTKPythonAlgorithmBase):
             info.Set(self.INPUT_IS_OPTIONAL(), 1)
         return 1
 
+    def RemoveReference(self):
+        """What ParaView calls before it sets another Reference, or none."""
+        self.RemoveAllInputConnections(1)
+
     def RequestUpdateExtent(self, request, inInfo, outInfo):
-        """First the moment at rest, where it is not kept, then, in a second round, the wanted one."""
-        asked = requested_time(outInfo.GetInformationObject(0))
-        keys = vtkStreamingDemandDrivenPipeline
-        if not self._second_round:
-            self._seeks_rest = not self._has_reference(inInfo) and (self._kept is None or self._stamp != self._stamp_now())
+        """The wanted moment of both inputs: they may have one source, which has one moment at a time."""
         for port in (0, 1):
-            if inInfo[port].GetNumberOfInformationObjects() == 0:
-                continue
-            source = inInfo[port].GetInformationObject(0)
-            if source.Has(keys.TIME_STEPS()) and source.Length(keys.TIME_STEPS()) > 0:
-                wanted = source.Get(keys.TIME_STEPS(), 0) if asked is None else asked
-                source.Set(keys.UPDATE_TIME_STEP(), self._reference_time if port == 1 or self._seeks_rest else wanted)
+            if inInfo[port].GetNumberOfInformationObjects() and self._wanted(inInfo[port], outInfo) is not None:
+                source = inInfo[port].GetInformationObject(0)
+                source.Set(vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP(), self._wanted(inInfo[port], outInfo))
         return 1
 
     @staticmethod
-    def _has_reference(inInfo):
-        return inInfo[1].GetNumberOfInformationObjects() > 0
-
-    def _stamp_now(self):
-        """Changes with whatever decides about the points at rest."""
-        return self.GetInputExecutive(0, 0).GetPipelineMTime(), self._reference_time, self._id_array
+    def _wanted(inInfo, outInfo):
+        """The moment asked for, or the first one; None: the input has one moment."""
+        keys, source = vtkStreamingDemandDrivenPipeline, inInfo.GetInformationObject(0)
+        if not source.Has(keys.TIME_STEPS()) or not source.Length(keys.TIME_STEPS()):
+            return None
+        asked = requested_time(outInfo.GetInformationObject(0))
+        return source.Get(keys.TIME_STEPS(), 0) if asked is None else asked
 
     def RequestData(self, request, inInfo, outInfo):
-        request.Remove(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING())
-        self._second_round = False
         with errors_shown(self):
-            rest = self._rest(inInfo)
-            if rest is None:
-                self._second_round = True
-                request.Set(vtkStreamingDemandDrivenPipeline.CONTINUE_EXECUTING(), 1)
-            else:
-                deformation.add_deformation(vtkUnstructuredGrid.GetData(outInfo, 0), rest, vtkDataObject.GetData(inInfo[0], 0),
-                                            self._cutoff, self._id_array)
+            rest = self._rest(inInfo, outInfo)
+            deformation.add_deformation(vtkUnstructuredGrid.GetData(outInfo, 0), rest, vtkDataObject.GetData(inInfo[0], 0),
+                                        self._cutoff, self._id_array)
         return 1
 
-    def _rest(self, inInfo):
-        """The points at rest; None: they were what has come, and the wanted moment is needed."""
-        if self._has_reference(inInfo):
-            self._stamp = None
-            return self._keep(vtkDataObject.GetData(inInfo[1], 0))
-        if not inInfo[0].GetInformationObject(0).Has(vtkStreamingDemandDrivenPipeline.TIME_STEPS()):
+    def _rest(self, inInfo, outInfo):
+        """The points at rest, kept until something upstream changes. Where they are not, their source is updated to their
+        moment, and the input back to the wanted one: in rounds of this filter's own, VTK would ask anew without end where
+        an input fails."""
+        port = 1 if inInfo[1].GetNumberOfInformationObjects() else 0
+        timed = self._wanted(inInfo[port], outInfo) is not None
+        if port == 0 and not timed:
             raise Refused("the input has one moment; give the moment at rest as the second input, Reference")
-        if not self._seeks_rest:
+        producer, index = self.GetInputAlgorithm(port, 0), self.GetInputConnection(port, 0).GetIndex()
+        stamp = (producer, index, self.GetInputExecutive(port, 0).GetPipelineMTime(), self._reference_time, self._id_array)
+        if self._kept is not None and self._stamp == stamp:
             return self._kept
-        self._keep(vtkDataObject.GetData(inInfo[0], 0))
-        self._stamp, self._seeks_rest = self._stamp_now(), False
-        return None
-
-    def _keep(self, data):
-        """What was found for the same points before is kept with them."""
-        found = deformation.Rest(data, self._id_array)
+        self._stamp = None
+        try:
+            if timed:
+                updated_to(inInfo[port], producer, index, self._reference_time)
+            found = deformation.Rest(vtkDataObject.GetData(inInfo[port], 0), self._id_array)
+        finally:
+            wanted = self._wanted(inInfo[0], outInfo)
+            if wanted is not None and timed:
+                connection = self.GetInputConnection(0, 0)
+                updated_to(inInfo[0], connection.GetProducer(), connection.GetIndex(), wanted)
         if self._kept is None or not self._kept.is_like(found):
             self._kept = found
+        self._stamp = stamp
         return self._kept

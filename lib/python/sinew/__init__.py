@@ -33,7 +33,7 @@ def make_scene(sections, body=None, folder=".", mesh=None):
         sections = {**sections, "body": {"mesh": "particles", "radius": body.radius, **given}}
     polygons = None if mesh is None else _polygons_of(mesh)
     if polygons is not None:
-        sections = {**sections, "body": {"mesh": "mesh", **given}}
+        sections = {**sections, "body": {**sections.get("body", {}), "mesh": "mesh", **given}}
     scene = _sinew._scene_of_text(_yaml(sections), folder)
     if polygons is not None:
         _sinew._set_mesh(scene, polygons)

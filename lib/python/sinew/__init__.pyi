@@ -121,7 +121,7 @@ class Simulation:
     def to_vtk(self) -> Any:
         """A vtkMultiBlockDataSet with a named block for each series."""
     def save(self) -> State:
-        """The present moment, from which restore() goes on with the same bits."""
+        """The present moment, its pose and forces set from here included: restore() goes on from it with the same bits."""
     def restore(self, state: State) -> None: ...
     @property
     def bone_frames(self) -> NDArray[np.float64]:

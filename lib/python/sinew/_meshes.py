@@ -28,7 +28,10 @@ def _arrays_of_vtk(data):
 
 def _arrays_of_cells(mesh):
     """Of meshio's meshes, their polygons."""
-    faces = [block.data for block in mesh.cells if block.type in ("triangle", "quad", "polygon")]
+    faces = [block.data for block in mesh.cells if block.type in ("triangle", "quad") or block.type.startswith("polygon")]
+    if not faces:
+        kinds = ", ".join(sorted({block.type for block in mesh.cells})) or "none"
+        raise _sinew.Error(f"faces are missing: the cells are {kinds}; give the polygons of the surface")
     return mesh.points, faces[0] if len(faces) == 1 else [list(face) for block in faces for face in block]
 
 
@@ -43,8 +46,8 @@ def polygons_of(mesh, faces=None):
             mesh, faces = mesh.vertices, mesh.faces
         elif hasattr(mesh, "GetPolys"):
             mesh, faces = _arrays_of_vtk(mesh)
-        elif hasattr(mesh, "GetPoints") and hasattr(mesh, "GetCellData"):
-            raise _sinew.Error("the mesh has cells that are no polygons; extract its surface (vtkGeometryFilter)")
+        elif hasattr(mesh, "GetClassName"):
+            raise _sinew.Error(f"the mesh is a {mesh.GetClassName()}; extract its surface as vtkPolyData (vtkGeometryFilter)")
         elif hasattr(mesh, "points") and hasattr(mesh, "cells"):
             mesh, faces = _arrays_of_cells(mesh)
     for name, array in (("vertices", mesh), ("faces", faces)):

@@ -17,7 +17,7 @@ def table(columns, units):
         from pandas import DataFrame
     except ImportError:
         return columns
-    frame = DataFrame({name: numpy.array(values) for name, values in columns.items()})
+    frame = DataFrame(columns)
     frame.attrs["units"] = units
     return frame
 
@@ -165,7 +165,7 @@ class Run:
     Frames that are there when it is opened: open it again to see more of a run in progress."""
 
     def __init__(self, folder):
-        self._files = _sinew._open_run(folder)
+        self._files = _sinew._open_run(os.path.abspath(folder))
         self._kept = {}
 
     def _once(self, name, make):
@@ -226,12 +226,14 @@ class Run:
     @property
     def metrics(self):
         """What the run measures, a row for each frame: a pandas.DataFrame, or without pandas a dict of arrays."""
-        return table(self._once("metrics", lambda: _sinew._measure(self._files)), _sinew._units_of_metrics())
+        measured = self._once("metrics", lambda: _sinew._measure(self._files))
+        return table({name: numpy.array(values) for name, values in measured.items()}, _sinew._units_of_metrics())
 
     @property
     def bones(self):
         """Forces and moments of bones, bones.csv: a row for each bone of each frame, as metrics."""
-        return table(self._once("bones", lambda: read_table(self.folder / "bones.csv")), {})
+        read = self._once("bones", lambda: read_table(self.folder / "bones.csv"))
+        return table({name: numpy.array(values) for name, values in read.items()}, {})
 
     def report(self):
         """Measures the run into its folder, as `sinew measure` does; the path of report.html."""

@@ -31,6 +31,7 @@ class OwnForces {
   /// Sets the forces from now on (n x 3, N, by id), between steps. Throws bad input for another
   /// number of them, and for numbers that are not finite.
   void set(Points forces);
+  const Points& now() const { return *forces_; }  ///< n x 3, N, by id
 
  private:
   std::shared_ptr<Points> forces_;

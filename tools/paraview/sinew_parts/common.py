@@ -18,8 +18,9 @@ def errors_shown(algorithm):
     """Shows what is refused in ParaView's window of messages."""
     try:
         yield
-    except Refused as refused:
-        vtkOutputWindow.GetInstance().DisplayErrorText(f"ERROR: {type(algorithm).__name__}: {refused}\n")
+    except (Refused, MemoryError) as refused:
+        what = "memory is not enough; take fewer points or neighbors" if isinstance(refused, MemoryError) else refused
+        vtkOutputWindow.GetInstance().DisplayErrorText(f"ERROR: {type(algorithm).__name__}: {what}\n")
 
 
 def package(name):
@@ -86,6 +87,14 @@ def ask_for_times(algorithm):
         if at.GetProxy().GetClientSideObject() is algorithm:
             at.GetProxy().UpdatePipelineInformation()
         at.Next()
+
+
+def updated_to(inInfo, producer, port, time):
+    """Updates what an input comes from to a time, in the pieces that are asked for. Refused where it fails."""
+    keys, info = vtkStreamingDemandDrivenPipeline, inInfo.GetInformationObject(0)
+    info.Set(keys.UPDATE_TIME_STEP(), time)
+    if not producer.GetExecutive().Update(port):
+        raise Refused(f"what the input comes from cannot be read at the time {time:g}")
 
 
 def publish_times(info, times):
