@@ -11,7 +11,7 @@
 namespace sinew::python {
 namespace {
 
-/// As so many as some of them have. Refused where memory ends.
+/// Refuses more neighbors than there is memory for, by the number that some of the points have.
 void refuse_too_many_pairs(const Points& points, double cutoff) {
   constexpr std::size_t asked = 200;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / asked);
