@@ -69,9 +69,8 @@ py::tuple fits_of(const RestShape& rest, const py::object& given) {
 void bind_deformation(py::module_& module) {
   py::class_<RestShape, std::shared_ptr<RestShape>>(
       module, "RestShape",
-      "Points (n, 3) at rest; those closer than `cutoff` are neighbors, found once. The "
-      "deformation "
-      "gradient of a later moment is the least-squares fit over them (Falk and Langer 1998).")
+      "Points (n, 3) at rest; those closer than `cutoff` are neighbors, found once. Deformation of "
+      "a later moment is the least-squares fit over them (Falk and Langer 1998).")
       .def(py::init(&shape_of), py::arg("points"), py::arg("cutoff"))
       .def("__len__", [](const RestShape& rest) { return rest.points.size(); })
       .def("__repr__",
