@@ -92,10 +92,7 @@ void refuse_target(const std::filesystem::path& target, const Options& options, 
                     "name a folder with -o, or one time with --times");
   if (!folder && is_folder)
     throw bad_input(Place{target.string()}, "is a folder", "name a file with -o");
-  if (is_folder || !std::filesystem::exists(target)) return;
-  if (is_scene(target))
-    throw bad_input(Place{target.string()}, "is a scene, and would be replaced",
-                    "give another name with -o");
+  refuse_to_replace_scene(target);
 }
 
 void print(const ExportedFrames& done, const RunFiles& run, const std::vector<std::size_t>& frames,

@@ -16,13 +16,13 @@ void refuse_too_many_pairs(const Points& points, double cutoff) {
   constexpr std::size_t asked = 200;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / asked);
   const CellGrid grid(points, cutoff);
-  std::vector<std::uint32_t> found;
-  std::size_t from = 0;
-  for (std::size_t i = 0; i < points.size(); i += stride, ++from)
-    append_neighbors(grid, points, i, cutoff, found);
-  const double pairs = static_cast<double>(found.size()) /
-                       static_cast<double>(std::max<std::size_t>(1, from)) *
-                       static_cast<double>(points.size());
+  std::vector<std::uint32_t> of_one;
+  double pairs = 0;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    of_one.clear();
+    append_neighbors(grid, points, i, cutoff, of_one);
+    pairs += static_cast<double>(of_one.size() * stride);
+  }
   const double needed = pairs * 2 * sizeof(std::uint32_t);  // in pieces, and then together
   if (pairs > UINT32_MAX || needed > available_memory())
     throw bad_input("with a cutoff of " + number_text(cutoff) + " there are some " +

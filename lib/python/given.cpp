@@ -24,6 +24,12 @@ py::array array_of(const py::object& given) {
                          : py::array::ensure(given);
 }
 
+void refuse_masked(const py::object& given, const std::string& name) {
+  if (py::hasattr(given, "mask") &&
+      py::cast<bool>(py::module_::import("numpy").attr("ma").attr("is_masked")(given)))
+    throw bad_input(name + " are masked", "leave out what is not there, or fill it with numbers");
+}
+
 bool is_whole(const py::array& array) {
   return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
 }
@@ -93,6 +99,7 @@ void add_sequence(const py::object& faces, PolygonSoup& soup) {
 }
 
 void add_faces(const py::object& faces, PolygonSoup& soup) {
+  refuse_masked(faces, "faces");
   const py::array array = array_of(faces);
   if (!array || array.dtype().kind() == 'O') return add_sequence(faces, soup);
   if (array.size() == 0) throw bad_input("faces are empty", "give at least one polygon");
@@ -107,9 +114,7 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 Numbers rows_of_three(const py::object& given, const std::string& name) {
   const py::array array = array_of(given);
   if (!array) throw bad_input(name + " are no array", "give an array of shape (n, 3)");
-  if (py::hasattr(given, "mask") &&
-      py::cast<bool>(py::module_::import("numpy").attr("ma").attr("is_masked")(given)))
-    throw bad_input(name + " are masked", "leave out what is not there, or fill it with numbers");
+  refuse_masked(given, name);
   if (array.size() > 0 && array.dtype().kind() != 'f' && !is_whole(array))
     throw bad_input(name + " are of type " + type_text(array), "give numbers, of shape (n, 3)");
   if (array.ndim() != 2 || array.shape(1) != 3)
@@ -117,7 +122,7 @@ Numbers rows_of_three(const py::object& given, const std::string& name) {
   return array;
 }
 
-/// Refuses what can not be computed with, but for points that `may_be` takes.
+/// Refuses what cannot be computed with, but for points that `may_be` takes.
 template <class MayBe>
 Points checked_points(const Numbers& numbers, const std::string& name, MayBe may_be) {
   Points points(static_cast<std::size_t>(numbers.shape(0)));

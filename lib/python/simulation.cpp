@@ -35,7 +35,8 @@ Dataset dataset_of(FrameData& frame, const std::string& series) {
 /// A moment, with what Python had set until then.
 struct SavedMoment {
   SimulationState state;
-  std::optional<Posing> posing;  ///< where set_pose() was called
+  std::vector<std::string> bones;  ///< of the skeleton that was posed
+  std::optional<Posing> posing;    ///< where set_pose() was called
   Points own_forces;
 };
 
@@ -171,20 +172,24 @@ class Stepped {
 
   SavedMoment save() const {
     refuse_while_stepping();
-    SavedMoment saved{simulation_->save(), std::nullopt, {}};
+    SavedMoment saved{simulation_->save(), bones(), std::nullopt, {}};
     if (is_posed_) saved.posing = posing_;
     if (own_forces_) saved.own_forces = own_forces_->now();
     return saved;
   }
   void restore(const SavedMoment& saved) {
     refuse_while_stepping();
+    if (saved.bones != bones())
+      throw bad_input("the state is of a body with other bones", "restore one of this simulation");
     simulation_->restore(saved.state);
     if (is_posed_ || saved.posing) {
       posing_ = saved.posing ? *saved.posing : *first_posing_;
       simulation_->play(posing_->motion());
       is_posed_ = saved.posing.has_value();
     }
-    if (own_forces_ && !saved.own_forces.empty()) own_forces_->set(saved.own_forces);
+    if (own_forces_)
+      own_forces_->set(saved.own_forces.empty() ? Points(positions_.size(), Vec3::Zero())
+                                                : saved.own_forces);
     time_ = simulation_->time(), steps_ = simulation_->steps();
     read_at_ = taken_at_ = -1;
   }
@@ -288,7 +293,6 @@ class pybind11::detail::type_caster<sinew::python::Stepped>
     : public pybind11::detail::made_caster<sinew::python::Stepped> {};
 
 namespace sinew::python {
-namespace {}  // namespace
 
 void bind_simulation(py::module_& module) {
   py::class_<SavedMoment>(module, "State");

@@ -226,6 +226,7 @@ class Arrays(SmallRun):
         for words, use in (("body.radius and body.count are both missing", lambda: sinew.fill(V, F)),
                            ("given twice", lambda: sinew.fill(V, F, radius=0.1, count=10)),
                            ("radius is 1j", lambda: sinew.fill(V, F, radius=1j)), ("vertices are masked", lambda: sinew.fill(masked, F, 0.1)),
+                           ("faces are masked", lambda: sinew.fill(V, numpy.ma.masked_equal(F, 3), 0.1)),
                            ("is a path", lambda: sinew.diagnose("arm.ply")), ("use diagnose", lambda: sinew.info((V, F))),
                            ("give radius=0.5", lambda: sinew.fill(V, numpy.float32(0.5)))):
             with self.assertRaisesRegex(sinew.Error, words):

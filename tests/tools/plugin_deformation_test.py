@@ -188,6 +188,8 @@ output.VTKObject.GetInformation().Set(output.VTKObject.DATA_TIME_STEP(), time)
                         setattr(one, name, value)
                     one.UpdatePipeline(time)
             self.assertNotIn("Traceback", messages.text)
+            if properties.get("ReferenceTime") == 2:
+                self.assertIn("cannot be read at the time 2", messages.text)
         found.ReferenceTime = 0
         self.assert_grown(found, 3)
 

@@ -288,6 +288,15 @@ class Made(unittest.TestCase):
         other.restore(turned)
         other.run_until(0.15)
         self.assertEqual(other.positions.tobytes(), bent[0])
+        still = sinew.Simulation(self.scene, self.body)  # which takes no forces
+        still.run_until(0.05)
+        other.restore(still.save())  # nor were any set then
+        other.run_until(0.1)
+        self.assertEqual(other.positions.tobytes(), expected[0])
+        bones = [{"name": "only", "head": [0, 0, 0], "tail": [0, 0, 0.5]}]
+        fewer = sinew.Simulation(sinew.make_scene(BAR | {"skeleton": {"bones": bones}, "motion": {}}, self.body), self.body)
+        with self.assertRaisesRegex(sinew.Error, "other bones"):
+            fewer.restore(turned)
 
     def test_positions_are_a_view(self):
         simulation = sinew.Simulation(self.scene, self.body)

@@ -50,9 +50,6 @@ def polygons_of(mesh, faces=None):
             raise _sinew.Error(f"the mesh is a {mesh.GetClassName()}; extract its surface as vtkPolyData (vtkGeometryFilter)")
         elif hasattr(mesh, "points") and hasattr(mesh, "cells"):
             mesh, faces = _arrays_of_cells(mesh)
-    for name, array in (("vertices", mesh), ("faces", faces)):
-        if numpy.ma.is_masked(array):
-            raise _sinew.Error(f"{name} are masked; leave out what is not there")
     return _sinew._polygons(mesh, faces)
 
 

@@ -73,6 +73,13 @@ void refuse_mesh_as_scene(const std::string& path) {
                     "make a scene of it and a mesh: sinew new MESH " + shell_quoted(path));
 }
 
+void refuse_to_replace_scene(const std::filesystem::path& output) {
+  std::error_code missing;
+  if (is_scene(output) && std::filesystem::exists(output, missing))
+    throw bad_input(Place{output.string()}, "is a scene, and would be replaced",
+                    "give another name with -o");
+}
+
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs,
                    const std::string& extension) {
   if (std::filesystem::path(output).extension() != extension)
@@ -83,9 +90,7 @@ void refuse_output(const std::string& output, std::initializer_list<std::string>
     if (std::filesystem::equivalent(output, input, missing))
       throw bad_input(Place{output}, "is an input, and would be replaced",
                       "give another name with -o");
-  if (is_scene(output) && std::filesystem::exists(output, missing))
-    throw bad_input(Place{output}, "is a scene, and would be replaced",
-                    "give another name with -o");
+  refuse_to_replace_scene(output);
 }
 
 Mat3 lattice_axes(const BodyOptions& body) {

@@ -38,6 +38,9 @@ bool is_scene(const std::filesystem::path& path);
 /// Throws bad input for a mesh or a BVH file, by its extension, where a scene is expected.
 void refuse_mesh_as_scene(const std::string& path);
 
+/// Throws bad input for an output that is there and a scene.
+void refuse_to_replace_scene(const std::filesystem::path& output);
+
 /// Throws Error (bad input) for an output of another extension, that is one of the inputs, or a
 /// scene.
 void refuse_output(const std::string& output, std::initializer_list<std::string> inputs,
