@@ -3,8 +3,10 @@
 # What holds for all our own code: the language, its warnings, and bits that do not depend on fused
 # multiply-adds. Tests draw random numbers and count without asking how wide they are. GCC takes sources that
 # are compiled together for headers, whose types must not depend on anonymous namespaces; from 13 on it suspects
-# references that functions return to be to their temporary arguments.
+# references that functions return to be to their temporary arguments. -fpch-preprocess lets compiler caches
+# take part where headers are precompiled.
 set(SINEW_COMPILE_OPTIONS -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -ffp-contract=off
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
   $<$<BOOL:${SINEW_UNITY}>:-Wno-subobject-linkage>
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-dangling-reference> $<$<BOOL:${SINEW_STRICT}>:-Werror>)
 foreach(kind options test_options)

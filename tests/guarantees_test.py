@@ -10,8 +10,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-# What needs packages that may be missing.
-OPTIONAL = {"lammps", "tools.engine", "tools.hosts", "tools.python"}
+# What needs packages that may be missing, or is built on request.
+OPTIONAL = {"lammps", "sanitized", "tools.engine", "tools.hosts", "tools.python"}
 
 
 def entries(build):

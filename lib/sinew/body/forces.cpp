@@ -142,6 +142,30 @@ void pair_forces(const Particles& particles, const Body& body, Forces& forces) {
   forces_of({particles, body.material.pair.b, if_it_passes(body)}, body.material, forces);
 }
 
+Reaction resultant(const Particles& particles, const Forces& forces, const Body& body,
+                   const Vec3& gravity) {
+  const auto mass = [&](std::size_t i) {
+    return mass_of(body, static_cast<std::size_t>(particles.id[i]), particles.mass);
+  };
+  const auto force = [&](std::size_t i) -> Vec3 {
+    const Vec3 sum = forces.bone[i] + mass(i) * gravity;
+    return forces.world.empty() ? sum : Vec3(sum + forces.world[i]);
+  };
+  Vec3 center = Vec3::Zero();
+  double all = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    center += mass(i) * particles.position(i);
+    all += mass(i);
+  }
+  center /= all;
+  Reaction sum;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    sum.force += force(i);
+    sum.moment += (particles.position(i) - center).cross(force(i));
+  }
+  return sum;
+}
+
 double pair_energy(const Particles& particles, const PairForce& pair) {
   return energy_of({particles, pair.b}, pair);
 }

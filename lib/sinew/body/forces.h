@@ -73,6 +73,11 @@ struct BoneReactions {
 std::vector<Reaction> reactions(const Particles& particles, const Points& pulls, const Body& body,
                                 const Pose& pose);
 
+/// Force (N) and moment about the center of mass (N m) of all that acts on the body from outside:
+/// bones, the world, its weight. By Newton's law the rate of change of its momentum.
+Reaction resultant(const Particles& particles, const Forces& forces, const Body& body,
+                   const Vec3& gravity);
+
 /// Stored energies, J.
 double pair_energy(const Particles& particles, const PairForce& pair);
 double pair_energy(const Particles& particles, const Body& body);

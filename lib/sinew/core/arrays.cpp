@@ -98,6 +98,10 @@ std::vector<WrittenArray> table_of_particles() {
        "elastic energy of contacts with obstacles"},
       {"particles", field, "work_of_world", "J", one, exact, plain,
        "work that moving obstacles, pins, fields, muscles, supports and loads have done so far"},
+      {"particles", field, "unbalanced_force", "N", one, exact, plain,
+       "size of the sum of all forces from outside, of a body that is brought to rest"},
+      {"particles", field, "unbalanced_moment", "N m", one, exact, plain,
+       "size of the sum of their moments about the center of mass"},
   };
 }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -37,6 +38,13 @@ struct Energies {
 
   double stored() const { return kinetic + pair + bone + gravity + contact; }
   double work() const { return work_of_bones + work_of_world; }
+};
+
+/// Size of what is left of all forces on a body from outside, and of their moments about its
+/// center of mass: nothing where it is in equilibrium. NaN: of a body that moves.
+struct Unbalanced {
+  double force = std::numeric_limits<double>::quiet_NaN();   ///< N
+  double moment = std::numeric_limits<double>::quiet_NaN();  ///< N m
 };
 
 /// Work and losses so far, J.

@@ -95,7 +95,7 @@ class ParticleColumns {
   std::vector<ComputedColumn> columns_;
 };
 
-std::vector<Column> columns_of(const Energies& energies) {
+std::vector<Column> columns_of(const Energies& energies, const Unbalanced& unbalanced) {
   const auto single = [](const char* name, double value) {
     return column(name, std::vector<double>{value});
   };
@@ -108,6 +108,10 @@ std::vector<Column> columns_of(const Energies& energies) {
                               single("work_of_world", energies.work_of_world)};
   if (!std::isnan(energies.dissipation))
     columns.insert(columns.end(), std::begin(of_motion), std::end(of_motion));
+  const Column of_rest[] = {single("unbalanced_force", unbalanced.force),
+                            single("unbalanced_moment", unbalanced.moment)};
+  if (!std::isnan(unbalanced.force))
+    columns.insert(columns.end(), std::begin(of_rest), std::end(of_rest));
   return columns;
 }
 
@@ -177,7 +181,7 @@ Dataset particles_dataset(const ParticleFrame& frame, Points positions, Moment m
     data.points.push_back(positions[static_cast<std::size_t>(id)]);
   data.connectivity = vertex_cells(rows->size());
   data.computed = columns_of(frame, data.points, ParticleColumns(rows, selection));
-  data.field_columns = columns_of(frame.energies);
+  data.field_columns = columns_of(frame.energies, frame.unbalanced);
   return data;
 }
 

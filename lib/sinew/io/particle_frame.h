@@ -38,6 +38,7 @@ struct ParticleFrame {
   std::span<const std::int32_t> group = {}, level = {};  ///< by id; empty where there are none
   std::span<const Vec3> force_group = {};                ///< N; empty without groups
   std::span<const std::int32_t> limited = {};            ///< times of each; empty: never
+  Unbalanced unbalanced = {};
 };
 
 /// What a frame contains.

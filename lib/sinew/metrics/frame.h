@@ -41,6 +41,7 @@ struct FrameState {
   std::vector<std::int32_t> group = {};  ///< of each, -1: free; empty: there are none
   Points world_force =
       {};  ///< of pins, supports, loads, obstacles and the like on each, N; or empty
+  Unbalanced unbalanced = {};
 };
 
 /// The metrics of one frame; table.cpp gives unit, meaning and formula of each.
@@ -59,6 +60,7 @@ struct FrameMetrics {
   double gravity_energy = not_measured, work_of_bones = not_measured, dissipation = not_measured;
   double contact_energy = not_measured, work_of_world = not_measured;
   double energy_residual = not_measured;
+  double unbalanced_force = not_measured, unbalanced_moment = not_measured;
   double adherence_rms = not_measured, adherence_max = not_measured;
   double pose_error_rms = not_measured, pose_error_max = not_measured;
   double pose_error_far_rms = not_measured;

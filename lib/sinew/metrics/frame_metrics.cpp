@@ -256,6 +256,8 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_volume(out, rest, state);
   add_motion(out, frame.particles);
   add_energies(out, rest.start, state.energies);
+  out.unbalanced_force = state.unbalanced.force;
+  out.unbalanced_moment = state.unbalanced.moment;
   add_adherence(out, rest, state);
   add_pose_error(out, rest, frame.particles);
   add_neighbors(out, rest, frame.particles);

@@ -66,6 +66,13 @@ constexpr std::array metric_table = {
     Metric{"energy_residual", "J", "Residual of the energy ledger: tests the integrator",
            "change of (kinetic + pair + bone + gravity + contact) - work + dissipation",
            &M::energy_residual, Worse::magnitude},
+    Metric{"unbalanced_force", "N",
+           "Size of the sum of all forces on the body from outside: nothing in an equilibrium, "
+           "measured in runs of the static method",
+           "|sum f| of bones, pins, supports, loads, obstacles, fields and the weight",
+           &M::unbalanced_force},
+    Metric{"unbalanced_moment", "N m", "Size of the sum of their moments about the center of mass",
+           "|sum (x - c) x f|", &M::unbalanced_moment},
     Metric{"adherence_rms", "m", "Change of the particles' distance to the bone, rms",
            "sqrt(mean (|x - p| - l0)^2), p the carried nearest point of the bone",
            &M::adherence_rms},

@@ -127,6 +127,7 @@ void FrameData::take(Simulation& simulation, double time, bool with_particles) {
   frame.pose = simulation.pose();
   frame.gravity = simulation.stepping().gravity;
   frame.energies = simulation.energies();
+  frame.unbalanced = simulation.unbalanced();
   if (body_.world) {
     WorldNow now = world_at(*body_.world, time, frame.pose);
     frame.obstacles = std::move(now.obstacles);
@@ -183,7 +184,8 @@ Dataset FrameData::frame_of(Points positions, const ParticleSelection& selection
                             group_,
                             level_,
                             forces.group,
-                            now_.limited},
+                            now_.limited,
+                            now_.unbalanced},
                            std::move(positions), now_.moment, selection);
 }
 

@@ -52,6 +52,7 @@ struct FrameMoment {
   std::vector<std::int32_t> broken_bonds, limited;
   FrameState measured;  ///< what arrays and probes are measured of
   Energies energies;
+  Unbalanced unbalanced;
   Pose pose;
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   BoneReactions reactions;

@@ -91,8 +91,9 @@ double field(const Dataset& data, const char* name) {
   return value;
 }
 
-/// Runs of the static method know no work and no dissipation.
-double field_of_motion(const Dataset& data, const char* name) {
+/// Work and dissipation are in frames of bodies that move, what is unbalanced in those of bodies at
+/// rest; else not-a-number.
+double field_if_there(const Dataset& data, const char* name) {
   return find(data.field_columns, name) ? field(data, name)
                                         : std::numeric_limits<double>::quiet_NaN();
 }
@@ -102,10 +103,10 @@ Energies energies_of(const Dataset& data) {
           field(data, "pair_energy"),
           field(data, "bone_energy"),
           field(data, "gravity_energy"),
-          field_of_motion(data, "work_of_bones"),
-          field_of_motion(data, "dissipation"),
+          field_if_there(data, "work_of_bones"),
+          field_if_there(data, "dissipation"),
           field(data, "contact_energy"),
-          field_of_motion(data, "work_of_world")};
+          field_if_there(data, "work_of_world")};
 }
 
 /// Uses the displacements, where they are written: these are exact for small ones.
@@ -129,6 +130,8 @@ void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
     if (find(data.point_columns, "velocity"))
       frame.velocities = vectors(data.point_columns, "velocity");
     frame.energies = energies_of(data);
+    frame.unbalanced = {field_if_there(data, "unbalanced_force"),
+                        field_if_there(data, "unbalanced_moment")};
     if (find(data.point_columns, "broken_bonds") && run.ids.empty())  // of bonds that are all there
       frame.broken_bonds = integers(data.point_columns, "broken_bonds");
     if (find(data.point_columns, "group")) frame.group = integers(data.point_columns, "group");
@@ -466,7 +469,8 @@ FrameState measured_frame(RunFrame frame) {
           {},
           std::move(frame.von_mises),
           std::move(frame.group),
-          std::move(frame.world_force)};
+          std::move(frame.world_force),
+          frame.unbalanced};
 }
 
 }  // namespace sinew

@@ -74,6 +74,7 @@ struct RunFrame {
   std::vector<double> von_mises;           ///< Pa; empty: not written
   std::vector<std::int32_t> group;         ///< of each particle, -1: free; empty: there are none
   Points world_force;                      ///< force_world, N; empty: not written
+  Unbalanced unbalanced;
 };
 
 /// Where the figure looks in the first frame, by its bones; see front_of().

@@ -278,17 +278,32 @@ class Run {
 
   void add_frame(int frame) {
     const double time = schedule_.frames.at(frame);
+    const Unbalanced unbalanced = simulation_->unbalanced();
     const bool moved = elsewhere_ && elsewhere_->moment().steps == simulation_->steps();
     writer_->add(*simulation_, time, moved && elsewhere_->moment().in_frame);
     log_.frame(frame, time);
     if (frame == 0)  // a run may end at any moment: the state is there from the first frame on
       writer_->then([this] { return [this] { write_state(); }; });
     if (const Relaxation* relaxation = simulation_->relaxation()) {
-      log_.load_step(frame, relaxation->last());
+      log_.load_step(frame, relaxation->last(), unbalanced);
+      warn_of_unbalanced(relaxation->last(), unbalanced, time);
       if (relaxation->last().inverted > inverted_.particles)
         inverted_ = {relaxation->last().inverted, time};
       if (relaxation->last().unstable > 0 && !buckles_at_) buckles_at_ = time;
     }
+  }
+
+  /// Once: what is wrong in one frame may be in all.
+  void warn_of_unbalanced(const Equilibrium& found, const Unbalanced& left, double time) {
+    constexpr double slack = 10;
+    const double arm = bounds(simulation_->body().rest).sizes().maxCoeff();
+    const double least = slack * found.tolerance;
+    if (unbalanced_ || (left.force <= least && left.moment <= least * arm)) return;
+    unbalanced_ = true;
+    warn("at " + three_digits(time) + " s the forces on the body sum to " +
+         three_digits(left.force) + " N and " + three_digits(left.moment) +
+         " N m, where its equilibrium allows " + three_digits(found.tolerance) +
+         " N: do not trust this frame; make solver.residual smaller, and report it");
   }
 
   void warn_of_inverted() const {
@@ -390,6 +405,7 @@ class Run {
     double time = 0;                  ///< s
   } inverted_;                        ///< in the worst equilibrium
   std::optional<double> buckles_at_;  ///< s
+  bool unbalanced_ = false;           ///< whether a warning said so
   std::optional<Simulation> simulation_;
   std::optional<FrameGuard> guard_;
   std::optional<EngineSteps> elsewhere_;

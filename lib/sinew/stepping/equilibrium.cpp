@@ -112,6 +112,7 @@ double Relaxation::time_at(double reached) const {
 double Relaxation::begin_time() const { return time_at(now_.reached); }
 
 double Relaxation::time() const {
+  if (now_.iterations == 0) return begin_time();
   if (is_direct()) return time_at(end());
   const double passed = static_cast<double>(now_.iterations) / ramp();
   return time_at(now_.reached + (end() - now_.reached) * std::min(passed, 1.0));
@@ -137,6 +138,10 @@ double Relaxation::residual() const {
   const bool is_rounding =
       now_.unbalanced <= at_rounding * noise_ && reference() < free_of_force * noise_;
   return reference() > noise_ && !is_rounding ? now_.unbalanced / reference() : 0;
+}
+
+double Relaxation::tolerance() const {
+  return std::max(steps_.residual * reference(), at_rounding * noise_);
 }
 
 /// The Rayleigh quotient of the last motion, which the change of the accelerations gives.
@@ -198,7 +203,7 @@ void Relaxation::accept(const IncrementStrain& found) {
   now_.spent += now_.iterations;
   ++now_.increments;
   if (is_there) {
-    last_ = {now_.spent, now_.increments, residual(), found.inverted, now_.unstable};
+    last_ = {now_.spent, now_.increments, residual(), found.inverted, now_.unstable, tolerance()};
     ++now_.at_rest;
   }
   now_.reached = is_there ? 0 : now_.reached + now_.increment;

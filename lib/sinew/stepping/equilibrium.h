@@ -78,6 +78,7 @@ struct Equilibrium {
   std::size_t inverted = 0;  ///< particles
   /// Unstable equilibria on the way, by negative pivots: the body may buckle this way or another.
   std::int64_t unstable = 0;
+  double tolerance = 0;  ///< upper bound of the lengths of all forces that nothing answers, N
 };
 
 /// How an increment has strained a body.
@@ -114,8 +115,8 @@ class Relaxation {
   bool is_stalled() const;
   /// The beginning of the present increment, s.
   double begin_time() const;
-  /// Returns the time of the bones and the surroundings in this iteration; of the moment where the
-  /// body is at rest, s.
+  /// The time of the bones and the surroundings in the present iteration; before the first of an
+  /// increment where it begins, as the body does; s.
   double time() const;
   double step() const { return step_ * now_.shortened; }  ///< s
   double keep() const;  ///< the fraction of the velocities that it leaves
@@ -168,6 +169,7 @@ class Relaxation {
   bool judge(const StepSums& sums);
   void find_damping(const Imbalance& sums);
   double reference() const;
+  double tolerance() const;
   bool is_at_rest(const Imbalance& sums) const;
   std::string moment_text() const;
   [[noreturn]] void refuse_noise() const;

@@ -464,6 +464,17 @@ void Simulation::reuse(Particles particles, Forces forces) {
     its_->particles.*axis = std::move(particles.*axis);
 }
 
+Reaction Simulation::resultant() {
+  evaluate();
+  return sinew::resultant(particles(), its_->forces, *its_->body, its_->stepping.gravity);
+}
+
+Unbalanced Simulation::unbalanced() {
+  if (!its_->increments) return {};
+  const Reaction left = resultant();
+  return {left.force.norm(), left.moment.norm()};
+}
+
 Energies Simulation::energies() {
   evaluate();
   const Particles& now = particles();

@@ -123,6 +123,11 @@ class Simulation {
   /// Memory of earlier ones, for those that are found next: spares the system from clearing new.
   void reuse(Particles particles, Forces forces);
 
+  /// All that acts on the body from outside, about its center of mass.
+  Reaction resultant();
+  /// The size of that, of a body that is brought to rest; else not-a-number.
+  Unbalanced unbalanced();
+
   /// Kinetic energy and dissipation are evaluated at the moment of the positions, so that the
   /// balance closes to second order in the step.
   Energies energies();

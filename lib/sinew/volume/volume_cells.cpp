@@ -25,7 +25,10 @@ void append(const VolumeCells& part, VolumeCells& body) {
 }
 
 VolumeCells fitted(const Scaffold& scaffold, const InsideSpace& inside, double radius) {
-  VolumeCells body = stuffed(scaffold, inside, radius);
+  const BodyBorder border{
+      [&](const Vec3& point) { return inside.contains(point); },
+      [&](const Vec3& from, const Vec3& to) { return inside.crossing(from, to); }};
+  VolumeCells body = stuffed(scaffold, border, radius);
   fit_border(body, inside, radius);
   return body;
 }
@@ -93,6 +96,23 @@ CellQuality quality_of(const VolumeCells& body) {
     quality.angles.largest = std::max(quality.angles.largest, angles.largest);
   }
   return quality;
+}
+
+VolumeMesh mesh_of(const VolumeCells& body) {
+  VolumeMesh mesh{body.points, {}};
+  for (const Cell& cell : body.cells) {
+    VolumeElement element;
+    std::copy(cell.begin(), cell.end(), element.nodes.begin());
+    mesh.elements.push_back(element);
+  }
+  return mesh;
+}
+
+VolumeMesh tetrahedra(const Surface& surface, double size) {
+  PackOptions options;
+  options.radius = size / 2;
+  const Filling sites = pack(surface, options);
+  return second_order(mesh_of(volume_cells(surface, options, positions_of(sites.particles))));
 }
 
 Dataset dataset_of(const VolumeCells& body) {

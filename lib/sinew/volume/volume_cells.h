@@ -20,6 +20,7 @@
 
 #include <sinew/core/dataset.h>
 #include <sinew/core/vector.h>
+#include <sinew/core/volume_mesh.h>
 #include <sinew/fill/pack.h>
 #include <sinew/mesh/surface.h>
 
@@ -41,6 +42,13 @@ struct VolumeCells {
 /// the radius, which is needed. Bodies that share no particle share no vertex. The same for any
 /// number of threads. Throws bad input where no particle is left.
 VolumeCells volume_cells(const Surface& surface, const PackOptions& options, const Points& rest);
+
+/// The cells as finite elements of four nodes.
+VolumeMesh mesh_of(const VolumeCells& body);
+
+/// Finite elements of ten nodes, with straight edges of about `size` (m, > 0), of whatever the
+/// surface encloses. Throws bad input where no site of that size lies inside.
+VolumeMesh tetrahedra(const Surface& surface, double size);
 
 /// Six times the volume of a cell is the determinant; m^3.
 inline double volume_of(const Points& points, const Cell& cell) {

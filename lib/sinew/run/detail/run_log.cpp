@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/run/detail/run_log.h>
 
+#include <algorithm>
+
 #include <sinew/body/grouping.h>
 #include <sinew/core/arrays.h>
 #include <sinew/core/hash.h>
@@ -230,15 +232,28 @@ void RunLog::describe(const GuardState& guard, const LimitedSpeeds& limited) {
   record_["limited_impulse"] = {limited.impulse.x(), limited.impulse.y(), limited.impulse.z()};
 }
 
-void RunLog::load_step(int frame, const Equilibrium& found) {
+void RunLog::load_step(int frame, const Equilibrium& found, const Unbalanced& left) {
   record_["load_steps"].push_back({{"frame", frame},
                                    {"iterations", found.iterations},
                                    {"increments", found.increments},
                                    {"residual", found.residual},
-                                   {"inverted", found.inverted}});
+                                   {"inverted", found.inverted},
+                                   {"unbalanced_force", left.force},
+                                   {"unbalanced_moment", left.moment}});
+  describe_unbalanced();
   log("at rest after " + std::to_string(found.iterations) + " iterations in " +
       std::to_string(found.increments) + (found.increments == 1 ? " increment" : " increments") +
       ", with a residual of " + three_digits(found.residual));
+}
+
+/// The largest over the frames.
+void RunLog::describe_unbalanced() {
+  for (const char* key : {"unbalanced_force", "unbalanced_moment"}) {
+    double largest = 0;
+    for (const Json& frame : record_["load_steps"])
+      largest = std::max(largest, frame.value(key, 0.0));
+    record_[key] = largest;
+  }
 }
 
 void RunLog::frames(int written) {
@@ -246,6 +261,7 @@ void RunLog::frames(int written) {
   if (!record_.contains("load_steps")) return;
   auto& steps = record_["load_steps"];
   while (steps.size() > static_cast<std::size_t>(written)) steps.erase(steps.size() - 1);
+  describe_unbalanced();
 }
 
 void RunLog::end(const std::string& status, const Simulation& simulation) {

@@ -38,7 +38,7 @@ class RunLog {
   void frame(int frame, double time);
   void retake(const Retake& why);
   /// How the body came to rest in a frame.
-  void load_step(int frame, const Equilibrium& found);
+  void load_step(int frame, const Equilibrium& found, const Unbalanced& left);
   /// Sets the number of frames, where a failure has left fewer than were begun.
   void frames(int written);
 
@@ -55,6 +55,7 @@ class RunLog {
   void describe(const StepperChoice& choice);
   void describe(const StepPlan& plan, int frames);
   void describe(const Grouping* grouping);
+  void describe_unbalanced();
   void log(const std::string& line);
 
   RunFolder folder_;

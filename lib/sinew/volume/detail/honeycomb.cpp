@@ -53,12 +53,20 @@ Lattice lattice_around(const BodySpace& space, const PackOptions& options) {
 
 }  // namespace
 
-Honeycomb::Honeycomb(const BodySpace& space, const PackOptions& options, const Points& rest)
-    : lattice_(lattice_around(space, options)), first_{0} {
+Honeycomb::Honeycomb(Lattice lattice) : lattice_(std::move(lattice)), first_{0} {
   for (const LatticeRow& row : lattice_.rows) first_.push_back(first_.back() + row.sites);
   const auto sites = static_cast<std::size_t>(first_.back());
   body_.assign(sites, -1);
   particle_.assign(sites, -1);
+}
+
+Honeycomb::Honeycomb(Lattice lattice, const std::function<bool(const Vec3& site)>& inside)
+    : Honeycomb(std::move(lattice)) {
+  take_inside(inside);
+}
+
+Honeycomb::Honeycomb(const BodySpace& space, const PackOptions& options, const Points& rest)
+    : Honeycomb(lattice_around(space, options)) {
   find_inside(space, options);
   for (std::size_t i = 0; i < rest.size(); ++i) {
     const std::int64_t site = site_at(place_of(rest[i]));
@@ -68,15 +76,18 @@ Honeycomb::Honeycomb(const BodySpace& space, const PackOptions& options, const P
   }
 }
 
+void Honeycomb::take_inside(const std::function<bool(const Vec3& site)>& inside) {
+  parallel_for(lattice_.rows.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      for (int n = 0; n < lattice_.rows[row].sites; ++n)
+        if (inside(lattice_.site(lattice_.rows[row], n))) body_[first_[row] + n] = 0;
+  });
+}
+
 void Honeycomb::find_inside(const BodySpace& space, const PackOptions& options) {
   if (options.thickness) {
     const InsideSpace layer(space.surface, options.thickness);
-    parallel_for(lattice_.rows.size(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row)
-        for (int n = 0; n < lattice_.rows[row].sites; ++n)
-          if (layer.contains(lattice_.site(lattice_.rows[row], n))) body_[first_[row] + n] = 0;
-    });
-    return;
+    return take_inside([&](const Vec3& site) { return layer.contains(site); });
   }
   InsideRuns inside = inside_runs(lattice_, space.surface);
   for (const Run& run : inside.runs)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <sinew/core/vector.h>
@@ -27,6 +28,9 @@ class Honeycomb {
   /// `rest` in the lattice's coordinates, m.
   Honeycomb(const BodySpace& space, const PackOptions& options, const Points& rest);
 
+  /// The sites of a lattice that lie `inside` of anything else, without particles.
+  Honeycomb(Lattice lattice, const std::function<bool(const Vec3& site)>& inside);
+
   /// 1 but for closed surfaces of several bodies that share no site.
   int bodies() const { return bodies_; }
   /// The faces of a body and of all cavities.
@@ -35,8 +39,10 @@ class Honeycomb {
   Scaffold around(int body) const;
 
  private:
+  explicit Honeycomb(Lattice lattice);
   std::int64_t site_at(const LatticePlace& place) const;
   LatticePlace place_of(const Vec3& point) const;
+  void take_inside(const std::function<bool(const Vec3& site)>& inside);
   void find_inside(const BodySpace& space, const PackOptions& options);
 
   Lattice lattice_;

@@ -31,9 +31,9 @@ enum class Side : signed char { outside = -1, border = 0, inside = 1 };
 
 class Stuffing {
  public:
-  Stuffing(const Scaffold& scaffold, const InsideSpace& space, double radius,
+  Stuffing(const Scaffold& scaffold, const BodyBorder& border, double radius,
            const NearFractions& near)
-      : scaffold_(scaffold), space_(space), near_(near), touching_(longest_touching * radius) {
+      : scaffold_(scaffold), border_(border), near_(near), touching_(longest_touching * radius) {
     for (const char inside : scaffold.inside)
       side_.push_back(inside ? Side::inside : Side::outside);
     body_.points = scaffold.points;
@@ -64,7 +64,7 @@ class Stuffing {
 
   void cross(CutEdge& edge) const {
     const Vec3 &from = scaffold_.points[edge.inside], &to = scaffold_.points[edge.outside];
-    edge.at = space_.crossing(from, to);
+    edge.at = border_.crossing(from, to);
     edge.place = from + edge.at * (to - from);
   }
 
@@ -201,7 +201,7 @@ class Stuffing {
   void add_at_crease(const Cell& cell) {
     Vec3 center = Vec3::Zero();
     for (const std::uint32_t v : cell) center += body_.points[v] / 4;
-    if (smallest_angle({&cell, 1}) > flat_at_crease && space_.contains(center)) add(cell);
+    if (smallest_angle({&cell, 1}) > flat_at_crease && border_.contains(center)) add(cell);
   }
 
   /// Two corners inside: the diagonal along the border concerns no other cell, and may be the
@@ -240,7 +240,7 @@ class Stuffing {
   }
 
   const Scaffold& scaffold_;
-  const InsideSpace& space_;
+  const BodyBorder& border_;
   NearFractions near_;
   double touching_;  ///< m
   std::vector<Side> side_;
@@ -250,9 +250,9 @@ class Stuffing {
 
 }  // namespace
 
-VolumeCells stuffed(const Scaffold& scaffold, const InsideSpace& space, double radius,
+VolumeCells stuffed(const Scaffold& scaffold, const BodyBorder& border, double radius,
                     const NearFractions& near) {
-  return Stuffing(scaffold, space, radius, near).result();
+  return Stuffing(scaffold, border, radius, near).result();
 }
 
 }  // namespace sinew

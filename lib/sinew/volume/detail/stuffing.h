@@ -3,10 +3,11 @@
 // to which a crossing of one of their edges is near are moved there first, so that what is cut
 // afterward is cut far from its corners.
 //
-//     const VolumeCells body = stuffed(honeycomb.around(0), space, {});
+//     const VolumeCells body = stuffed(honeycomb.around(0), border_of(space), radius);
 #pragma once
 
-#include <sinew/volume/detail/inside_space.h>
+#include <functional>
+
 #include <sinew/volume/detail/scaffold.h>
 #include <sinew/volume/volume_cells.h>
 
@@ -18,8 +19,15 @@ struct NearFractions {
   double touching = 0.35, longer = 0.27;
 };
 
+/// Where a body ends.
+struct BodyBorder {
+  std::function<bool(const Vec3& point)> contains;  ///< what is inside
+  /// Where the segment between a point inside and one outside leaves it, as a fraction of it.
+  std::function<double(const Vec3& inside, const Vec3& outside)> crossing;
+};
+
 /// In the scaffold's coordinates; ids are those of its particles. `radius` in m.
-VolumeCells stuffed(const Scaffold& scaffold, const InsideSpace& space, double radius,
+VolumeCells stuffed(const Scaffold& scaffold, const BodyBorder& border, double radius,
                     const NearFractions& near = {});
 
 }  // namespace sinew

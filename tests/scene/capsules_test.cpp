@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/repair/capsules.h>
+#include <sinew/scene/new/capsules.h>
 
 #include <gtest/gtest.h>
 

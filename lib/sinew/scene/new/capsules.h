@@ -17,9 +17,9 @@ struct Capsule {
 };
 
 /// The surface of the union, closed and outward, with sides up to about `side` (m, > 0) and errors
-/// of a twelfth of that: gaps and limbs wider than these stay. By CGAL's surface mesher (Boissonnat
-/// and Oudot 2005), the same on every machine. What it misses, as parts apart from the others, is
-/// wrapped with the rest instead (wrap() in repair.h, whose errors it throws).
+/// of a twelfth of that: gaps and limbs wider than these stay. The same for any number of threads.
+/// Parts too thin for it are wrapped with the rest instead (wrap() in repair.h, whose errors it
+/// throws).
 Triangles skin_around(const std::vector<Capsule>& capsules, double side);
 
 }  // namespace sinew
