@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 tools/install_packages.sh build test
 tests/tools/get_paraview_python.sh build/paraview-python
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=ON >/dev/null
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=ON -DSINEW_OWN_PROCESSOR=OFF >/dev/null
 # Not by -Werror: with other options than those of tools/demo.sh, all that it built would be built again. After a
 # warning all is built again, so that it is seen until it is gone.
 # shellcheck disable=SC2086

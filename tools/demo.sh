@@ -4,8 +4,8 @@
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-tools/install_packages.sh build
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=OFF >/dev/null
+tools/install_packages.sh build python
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSINEW_TESTS=OFF -DSINEW_OWN_PROCESSOR=ON >/dev/null
 cmake --build build
 build/bin/sinew run --force configs/box_bend.yaml
 

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# install_packages.sh build|test|package|bench|ci ...: installs with apt-get the missing Debian packages for
-# building, testing, making packages, the benchmarks or bare roots. With --list first, prints their names only.
+# install_packages.sh build|python|test|package|bench|ci ...: installs with apt-get the missing Debian packages for
+# building, the Python package, testing, making packages, the benchmarks or bare roots. With --list first, prints their names only.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-dev libtbb-dev
   libdeflate-dev liblz4-dev libexpat1-dev libcli11-dev nlohmann-json3-dev libfmt-dev libx11-dev xvfb ffmpeg
   libjs-chart.js libjs-three liblammps-dev lammps openmpi-bin)
 test=(libgtest-dev libbenchmark-dev pybind11-dev python3-dev python3 python3-ase python3-ipykernel python3-matplotlib python3-meshio python3-nbconvert python3-numpy python3-vtk9 xauth iproute2 paraview procps calculix-ccx chromium clang-format clang-tidy)
+python=(pybind11-dev python3-dev python3-numpy)
 package=(pybind11-dev python3-dev dpkg-dev file help2man)
 bench=(libbenchmark-dev libgtest-dev python3)
-ci=(debootstrap debian-archive-keyring git)
+ci=(ccache debootstrap debian-archive-keyring git)
 dispensable=(calculix-ccx)  # Debian 13 has none; tests that need one are skipped
 
 print_only=false
@@ -22,11 +23,12 @@ wanted=()
 for list in "$@"; do
   case $list in
     build) wanted+=("${build[@]}") ;;
+    python) wanted+=("${python[@]}") ;;
     test) wanted+=("${test[@]}") ;;
     package) wanted+=("${package[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     ci) wanted+=("${ci[@]}") ;;
-    *) echo "install_packages.sh: '$list' is none of build, test, package, bench, ci" >&2; exit 2 ;;
+    *) echo "install_packages.sh: '$list' is none of build, python, test, package, bench, ci" >&2; exit 2 ;;
   esac
 done
 

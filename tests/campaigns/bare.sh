@@ -1,33 +1,37 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bare.sh [--suite trixie] [--tests] [--without-each] [--objects BUILD]: what the README says first, on a machine that
+# bare.sh [--suite trixie] [--tests] [--without-each] [--cache FOLDER] [--packages]: what the README says first, on a machine that
 # has never seen the project: a bare root of Debian 12 (bookworm) or another release, as bare_root.sh makes it. There
 # it builds this checkout's commit with tools/demo.sh, runs a scene of a mesh, builds the Python package, installs
 # ParaView and looks at both runs with it. --tests runs tests/run.sh as well; --without-each breaks optional packages,
 # each in turn, and configures.
-# --objects spares compiling again what a finished build of this checkout has compiled: see object_files.sh.
+# --cache shares a folder of ccache, so that what a build of this checkout has compiled is not compiled again: it looks
+# at every header in the root, and where one is missing or another, the compiler does. --packages ends when the packages
+# that demo.sh wants are installed, in the root that BARE_ROOT names.
 # Logs and what ParaView shows are left in build/bare/SUITE. As root; takes a quarter of an hour and 5 GB.
 set -euo pipefail
 
 . "$(dirname "${BASH_SOURCE[0]}")/bare_root.sh"
-. "$(dirname "${BASH_SOURCE[0]}")/object_files.sh"
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-suite=bookworm also=() objects=
+suite=bookworm also=() cache= packages_alone=false
 while [ $# -gt 0 ]; do
   case $1 in
     --suite) suite=${2:?--suite of what?}; shift ;;
     --tests) also+=(tests) ;;
     --without-each) also+=(without_each) ;;
-    --objects) objects=$(realpath -e "${2:?--objects of which build?}"); shift ;;
-    *) echo "bare.sh: '$1' is none of --suite SUITE, --tests, --without-each, --objects BUILD" >&2; exit 2 ;;
+    --cache) cache=$(realpath -m "${2:?--cache in which folder?}"); shift ;;
+    --packages) packages_alone=true ;;
+    *) echo "bare.sh: '$1' is none of --suite SUITE, --tests, --without-each, --cache FOLDER, --packages" >&2; exit 2 ;;
   esac
   shift
 done
 logs=$PWD/build/bare/$suite
 mkdir -p "$logs"
 own=/root/own/two_fingers
-clone=${objects:+$PWD}  # compilers are told absolute paths
+clone=${cache:+$PWD}  # compilers are told absolute paths
 clone=${clone:-/root/sinew}
+settings=${cache:+env CCACHE_DIR=/root/.ccache CCACHE_STATSLOG=/root/ccache.log CCACHE_COMPILERCHECK=content CCACHE_BASEDIR=$PWD
+  CCACHE_SLOPPINESS=pch_defines,time_macros CMAKE_CXX_COMPILER_LAUNCHER=ccache}
 
 fail() {
   echo "$*" >&2
@@ -41,6 +45,19 @@ clone() {
   in_root rm -rf "$clone" /root/own
   mkdir -p "$root$clone"
   git -c safe.directory="$PWD" archive HEAD | tar -x -C "$root$clone"
+}
+
+# By the first command of demo.sh.
+packages() { in_clone "$(grep -m 1 '^tools/install_packages.sh' tools/demo.sh)"; }
+
+share_cache() {
+  in_root apt-get -qq install -y --no-install-recommends ccache
+  mkdir -p "$cache" "$root/root/.ccache"
+  mount --bind "$cache" "$root/root/.ccache"
+}
+
+compiled_anew() {
+  echo "compiled in the root: $(grep -c cache_miss "$root/root/ccache.log") of $(grep -c '^#' "$root/root/ccache.log") object files"
 }
 
 own_mesh() {
@@ -115,12 +132,11 @@ without_each() {
 make_bare_root "$suite"
 took SECONDS root
 stage clone clone
-if [ -n "$objects" ]; then
-  stage packages packages
-  stage objects seed_objects "$objects"
-fi
-stage demo in_clone tools/demo.sh
-[ -z "$objects" ] || compiled_anew
+stage packages packages
+if $packages_alone; then exit; fi
+[ -z "$cache" ] || stage cache share_cache
+stage demo in_clone "$(tr '\n' ' ' <<< "$settings") tools/demo.sh"
+[ -z "$cache" ] || compiled_anew
 stage own_mesh own_mesh
 stage files check_runs
 stage python_package python_package

@@ -142,7 +142,8 @@ Dataset SyntheticRun::particles(Moment moment) const {
                                       group,
                                       level,
                                       {},
-                                      limited},
+                                      limited,
+                                      {0, 0}},
                                      positions_by_id(now), moment));
 }
 

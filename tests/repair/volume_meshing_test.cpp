@@ -6,9 +6,12 @@
 #include <algorithm>
 
 #include <sinew/mesh/solids.h>
+#include "support/expect_error.h"
 
 namespace sinew::volume_meshing_test {
 namespace {
+
+using test::expect_bad_input;
 
 double volume_of_all(const VolumeMesh& mesh) {
   double sum = 0;
@@ -56,6 +59,37 @@ TEST(VolumeMeshing, HexahedraFillTheBoxAndMeetAtCuts) {
     for (const auto& [from, to] : edges_of(element.kind))
       EXPECT_LE((mesh.nodes[element.nodes[from]] - mesh.nodes[element.nodes[to]]).norm(),
                 0.6 + 1e-12);
+}
+
+TEST(VolumeMeshing, TetrahedraFillABallAndKeepTheEdgesOfACylinder) {
+  const Triangles ball = solid(SolidShape::sphere, {1, 1, 1});
+  const VolumeMesh of_ball = tetrahedra(ball, 0.15);
+  EXPECT_NEAR(volume_of_all(of_ball) / volume(ball), 1, 0.03);
+  EXPECT_GT(min_volume(of_ball), 0);
+  const Triangles cylinder = solid(SolidShape::cylinder, {1, 1, 1});
+  const VolumeMesh of_cylinder = tetrahedra(cylinder, 0.2);
+  EXPECT_NEAR(volume_of_all(of_cylinder) / volume(cylinder), 1, 0.02);
+  double upper = 0;
+  for (const ElementFace& face : boundary_faces(of_cylinder))
+    if (area_vector(of_cylinder, face).normalized().z() > 0.999999)
+      upper += area_vector(of_cylinder, face).z();
+  EXPECT_NEAR(upper, pi / 4, 0.02);
+}
+
+TEST(VolumeMeshing, TetrahedraAreTheSameEachTime) {
+  const Triangles ball = solid(SolidShape::sphere, {1, 1, 1});
+  EXPECT_EQ(tetrahedra(ball, 0.3).nodes, tetrahedra(ball, 0.3).nodes);
+}
+
+TEST(VolumeMeshing, SurfacesThatBoundNothingAreRefused) {
+  Triangles open = solid(SolidShape::sphere, {1, 1, 1});
+  open.faces.pop_back();
+  expect_bad_input([&] { tetrahedra(open, 0.3); }, {"the surface is open", "body.close_holes"});
+  Triangles crossing = solid(SolidShape::sphere, {1, 1, 1});
+  Triangles other = crossing;
+  for (Vec3& point : other.points) point.x() += 0.4;
+  append(other, crossing);
+  expect_bad_input([&] { tetrahedra(crossing, 0.3); }, {"intersects itself", "body.wrap"});
 }
 
 }  // namespace

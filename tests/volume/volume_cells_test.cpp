@@ -14,7 +14,6 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/random.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/mesh/solids.h>
 #include <sinew/repair/read_surface.h>
 #include <sinew/volume/volume_cells.h>
 #include "mesh/shapes.h"
@@ -248,32 +247,6 @@ TEST(VolumeCells, AreTheSameForAnyNumberOfThreads) {
       EXPECT_EQ(one.cells.cells, other.cells.cells);
       EXPECT_EQ(one.cells.points, other.cells.points);
     });
-}
-
-Surface surface_of(const Triangles& skin) {
-  PolygonSoup soup{skin.points, {}};
-  for (const auto& face : skin.faces) soup.polygons.emplace_back(face.begin(), face.end());
-  return clean(soup);
-}
-
-TEST(Tetrahedra, FillABallAndKeepTheEdgesOfACylinder) {
-  const Triangles ball = solid(SolidShape::sphere, {1, 1, 1});
-  const auto volume_of_all = [](const VolumeMesh& mesh) {
-    double sum = 0;
-    for (const VolumeElement& element : mesh.elements) {
-      EXPECT_GT(volume_of(mesh, element), 0);
-      sum += volume_of(mesh, element);
-    }
-    return sum;
-  };
-  EXPECT_NEAR(volume_of_all(tetrahedra(surface_of(ball), 0.15)) / volume(ball), 1, 0.01);
-  const Triangles cylinder = solid(SolidShape::cylinder, {1, 1, 1});
-  const VolumeMesh mesh = tetrahedra(surface_of(cylinder), 0.2);
-  EXPECT_NEAR(volume_of_all(mesh) / volume(cylinder), 1, 0.01);
-  double upper = 0;
-  for (const ElementFace& face : boundary_faces(mesh))
-    if (area_vector(mesh, face).normalized().z() > 0.999999) upper += area_vector(mesh, face).z();
-  EXPECT_NEAR(upper, pi / 4, 0.02);
 }
 
 TEST(VolumeCells, NeedParticles) {

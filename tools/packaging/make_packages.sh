@@ -7,7 +7,7 @@ set -euo pipefail
 build=$(realpath "${1:?usage: make_packages.sh BUILD}")
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 "$here/../install_packages.sh" build package
-cmake "$build" -DSINEW_PYTHON=ON >/dev/null
+cmake "$build" -DSINEW_PYTHON=ON -DSINEW_OWN_PROCESSOR=OFF >/dev/null
 cmake --build "$build" --target programs sinew_all_rooms sinew-tables sinew_python
 
 pages=$build/share/man

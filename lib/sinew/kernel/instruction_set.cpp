@@ -6,23 +6,21 @@
 namespace sinew::kernel {
 namespace {
 
-bool processor_has(InstructionSet set) {
-#if defined(__x86_64__)
-  switch (set) {
-    case InstructionSet::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
-    case InstructionSet::avx2:
-      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    case InstructionSet::plain:
-      return true;
-  }
+bool is_there(InstructionSet set) {
+#ifdef SINEW_AVX512
+  if (set == InstructionSet::avx512)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+#endif
+#ifdef SINEW_AVX2
+  if (set == InstructionSet::avx2)
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif
   return set == InstructionSet::plain;
 }
 
 }  // namespace
 
-bool has(InstructionSet set) { return processor_has(set); }
+bool has(InstructionSet set) { return is_there(set); }
 
 InstructionSet best_instruction_set() {
   for (const auto set : {InstructionSet::avx512, InstructionSet::avx2})
@@ -44,8 +42,10 @@ const char* name_of(InstructionSet set) {
 
 template <>
 Functions<double> functions_of(InstructionSet set) {
-#if defined(__x86_64__)
+#ifdef SINEW_AVX512
   if (set == InstructionSet::avx512) return doubles_avx512;
+#endif
+#ifdef SINEW_AVX2
   if (set == InstructionSet::avx2) return doubles_avx2;
 #endif
   static_cast<void>(set);
@@ -54,8 +54,10 @@ Functions<double> functions_of(InstructionSet set) {
 
 template <>
 Functions<float> functions_of(InstructionSet set) {
-#if defined(__x86_64__)
+#ifdef SINEW_AVX512
   if (set == InstructionSet::avx512) return floats_avx512;
+#endif
+#ifdef SINEW_AVX2
   if (set == InstructionSet::avx2) return floats_avx2;
 #endif
   static_cast<void>(set);

@@ -14,7 +14,6 @@
 #include <sinew/scene/element_parts.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
-#include <sinew/volume/volume_cells.h>
 #include <sinew/world/region.h>
 
 namespace sinew {
@@ -90,12 +89,12 @@ double size_of(const Settings& settings, const Triangles& surface, const Element
   return default_size * radius;
 }
 
-VolumeMesh elements_of(const Settings& settings, const Surface& surface, double size) {
-  const double expected = volume(surface.triangles) / (size * size * size);
+VolumeMesh mesh_of(const Settings& settings, const Triangles& surface, double size) {
+  const double expected = volume(surface) / (size * size * size);
   if (!(expected < max_elements))
     throw bad_input("the body would have over " + number_text(max_elements) + " elements",
                     "give a larger --size than " + three_digits(size) + " m");
-  if (const auto box = axis_box(surface.triangles)) return hexahedra(*box, size, cuts_of(settings));
+  if (const auto box = axis_box(surface)) return hexahedra(*box, size, cuts_of(settings));
   return with_context(settings, "body.mesh", [&] { return tetrahedra(surface, size); });
 }
 
@@ -377,7 +376,7 @@ Deck deck_of(const Settings& settings, const Surface& surface, const ElementOpti
   Deck deck;
   deck.title = "sinew: " + std::filesystem::path(settings.body.mesh).filename().string();
   deck.large_displacements = !options.linear;
-  deck.mesh = elements_of(settings, surface, size_of(settings, skin, options));
+  deck.mesh = mesh_of(settings, skin, size_of(settings, skin, options));
   const ElementParts parts(settings, deck.mesh);
   deck.materials = materials_of(settings, deck.mesh, parts);
   std::vector<NodeSupport> supports;

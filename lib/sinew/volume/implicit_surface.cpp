@@ -51,7 +51,7 @@ Triangles skin_of(const VolumeCells& body) {
       }
       corners[k] = at;
     }
-    surface.faces.push_back(corners);
+    surface.faces.push_back({corners[0], corners[2], corners[1]});
   }
   return surface;
 }

@@ -108,13 +108,6 @@ VolumeMesh mesh_of(const VolumeCells& body) {
   return mesh;
 }
 
-VolumeMesh tetrahedra(const Surface& surface, double size) {
-  PackOptions options;
-  options.radius = size / 2;
-  const Filling sites = pack(surface, options);
-  return second_order(mesh_of(volume_cells(surface, options, positions_of(sites.particles))));
-}
-
 Dataset dataset_of(const VolumeCells& body) {
   Dataset data;
   data.points = body.points;

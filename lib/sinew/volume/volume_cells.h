@@ -46,10 +46,6 @@ VolumeCells volume_cells(const Surface& surface, const PackOptions& options, con
 /// The cells as finite elements of four nodes.
 VolumeMesh mesh_of(const VolumeCells& body);
 
-/// Finite elements of ten nodes, with straight edges of about `size` (m, > 0), of whatever the
-/// surface encloses. Throws bad input where no site of that size lies inside.
-VolumeMesh tetrahedra(const Surface& surface, double size);
-
 /// Six times the volume of a cell is the determinant; m^3.
 inline double volume_of(const Points& points, const Cell& cell) {
   const Vec3 &a = points[cell[0]], &b = points[cell[1]], &c = points[cell[2]], &d = points[cell[3]];
