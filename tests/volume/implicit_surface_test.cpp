@@ -24,7 +24,7 @@ const Box around(Vec3(-1.4, -1.3, -1.5), Vec3(1.4, 1.3, 1.1));
 TEST(ImplicitSurface, OfABallIsClosedAndOutwardAndLiesOnIt) {
   const Triangles ball = implicit_surface(of_ball, around, 0.1);
   EXPECT_TRUE(surface_of(ball).closed());
-  EXPECT_NEAR(volume(ball), 4 * pi / 3, 0.01);
+  EXPECT_NEAR(volume(ball), 4 * pi / 3, 0.015);  // flat faces lack h^2 / 8 and more
   EXPECT_NEAR(area(ball), 4 * pi, 0.04);
   for (const Vec3& point : ball.points) EXPECT_NEAR(point.norm(), 1, 1e-8);
 }
