@@ -198,6 +198,20 @@ TEST_F(CheckpointFile, InTurnLeavesTheOlderOneWhole) {
   EXPECT_EQ(read_checkpoint(folder / "checkpoint/b.bin", particles).state.steps, 40);
 }
 
+/// A body that comes to rest makes no step.
+TEST_F(CheckpointFile, OfTheSameStepIsNewerWhereMoreMomentsAreAtRest) {
+  for (const bool later_first : {false, true}) {
+    Checkpoints checkpoints(folder / (later_first ? "one" : "other"));
+    Checkpoint one = sample();
+    for (const std::int64_t moments : {later_first ? 3 : 2, later_first ? 2 : 3}) {
+      one.state.relaxation.at_rest = moments;
+      checkpoints.write(one);
+    }
+    std::string complaint;
+    EXPECT_EQ(checkpoints.newest(particles, complaint)->state.relaxation.at_rest, 3);
+  }
+}
+
 TEST_F(CheckpointFile, BrokenGivesWayToTheOlderOne) {
   Checkpoints checkpoints(folder);
   Checkpoint one = sample();

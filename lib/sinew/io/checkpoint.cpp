@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -386,6 +387,12 @@ Checkpoint read_checkpoint(const fs::path& path, std::uint64_t particles) {
 
 namespace {
 
+/// What grows as a run goes on. A relaxation may come to rest, or give an increment up, without a
+/// step.
+auto progress(const SimulationState& state) {
+  return std::tuple(state.steps, state.relaxation.at_rest, state.relaxation.spent);
+}
+
 fs::path file_of(const fs::path& folder, int which) {
   return folder / (which == 0 ? "a.bin" : "b.bin");
 }
@@ -409,7 +416,7 @@ std::optional<Checkpoint> Checkpoints::newest(std::uint64_t particles, std::stri
     if (!fs::exists(file_of(folder_, which), unreachable)) continue;
     try {
       Checkpoint found = read_checkpoint(file_of(folder_, which), particles);
-      if (newest && newest->state.steps >= found.state.steps) continue;
+      if (newest && progress(newest->state) >= progress(found.state)) continue;
       newest = std::move(found);
       next_ = 1 - which;
     } catch (const Error& error) {
