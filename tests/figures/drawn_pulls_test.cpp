@@ -10,11 +10,12 @@
 #include <sinew/figures/figure_set.h>
 #include "figures/drawn_runs.h"
 #include "support/expect_error.h"
+#include "support/source_dir.h"
 
 namespace sinew::drawn_pulls_test {
 
 const std::string box =
-    std::string("body: {mesh: ") + SINEW_SOURCE_DIR + "/data/meshes/box.obj, radius: 0.03}\n";
+    std::string("body: {mesh: ") + test::source_dir() + "/data/meshes/box.obj, radius: 0.03}\n";
 
 /// The upper bone stretches by half in a tenth of a second.
 const std::string stretching = box + R"(skeleton:

@@ -10,6 +10,7 @@
 #include <sinew/io/vtu.h>
 #include "figures/drawn_runs.h"
 #include "support/expect_error.h"
+#include "support/source_dir.h"
 
 namespace sinew::drawn_volume_test {
 
@@ -18,7 +19,7 @@ const Vec3 joint(0, 0, 0.34648);
 /// The box at a coarse radius, bonded, with `keys` of its upper bone; two frames after the start.
 RunFolder run_of(const TempFolder& folder, const std::string& keys, const std::string& more = "",
                  const std::string& material = "") {
-  const std::string scene = std::string("body: {mesh: ") + SINEW_SOURCE_DIR +
+  const std::string scene = std::string("body: {mesh: ") + test::source_dir() +
                             R"(/data/meshes/box.obj, radius: 0.03}
 skeleton:
   bones:

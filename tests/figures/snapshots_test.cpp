@@ -10,10 +10,11 @@
 #include <sinew/figures/figure_set.h>
 #include "figures/drawn_runs.h"
 #include "support/expect_error.h"
+#include "support/source_dir.h"
 
 namespace sinew::snapshots_test {
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = test::source_dir();
 
 /// The box at a coarse radius; its upper bone stretches by half in a tenth of a second.
 std::string stretching_scene(bool bonds = false) {

@@ -8,6 +8,7 @@
 #include <sinew/mesh/clean.h>
 #include <sinew/repair/read_surface.h>
 #include "mesh/shapes.h"
+#include "support/source_dir.h"
 
 namespace sinew::broken_test {
 
@@ -21,7 +22,7 @@ PolygonSoup triangles_of(const PolygonSoup& soup) {
 /// The winding number of a hole's rim is wrong within a fraction of the hole's size: what is lost
 /// shrinks with the faces. So these have 100,000 of them.
 std::vector<PolygonSoup> bodies() {
-  const std::string creature = SINEW_SOURCE_DIR "/data/meshes/creature.ply";
+  const std::string creature = test::source_dir() + "/data/meshes/creature.ply";
   return {shapes::sphere(1, 7), triangles_of(shapes::torus(1, 0.4, 320, 160)),
           shapes::refined(read_polygons(creature), 100000)};
 }

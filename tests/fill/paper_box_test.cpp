@@ -6,10 +6,11 @@
 #include <sinew/fill/pack.h>
 #include <sinew/repair/read_surface.h>
 #include "mesh/mesh_files.h"
+#include "support/source_dir.h"
 
 namespace sinew::paper_box_test {
 
-const std::string paper_box = SINEW_SOURCE_DIR "/data/meshes/box.obj";
+const std::string paper_box = test::source_dir() + "/data/meshes/box.obj";
 
 Surface paper_box_surface() { return read_surface(mesh_files::body_at(paper_box)); }
 

@@ -10,13 +10,14 @@
 #include <sinew/fill/pack.h>
 #include <sinew/repair/read_surface.h>
 #include "mesh/mesh_files.h"
+#include "support/source_dir.h"
 
 namespace sinew::volume_shares_test {
 
 constexpr double radius = 0.008;
 
 Surface creature() {
-  return read_surface(mesh_files::body_at(SINEW_SOURCE_DIR "/data/meshes/creature.ply"));
+  return read_surface(mesh_files::body_at(test::source_dir() + "/data/meshes/creature.ply"));
 }
 
 PackOptions with_volume_shares() {

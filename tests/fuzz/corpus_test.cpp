@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "support/source_dir.h"
 #include "targets.h"
 
 namespace sinew::fuzz {
@@ -14,7 +15,7 @@ class Corpus : public testing::TestWithParam<Target> {};
 
 TEST_P(Corpus, IsSoundOrRefused) {
   const auto folder =
-      std::filesystem::path(SINEW_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+      std::filesystem::path(test::source_dir()) / "tests/fuzz/corpus" / GetParam().name;
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     std::ostringstream text;

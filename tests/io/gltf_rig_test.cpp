@@ -7,6 +7,7 @@
 #include <sinew/settings/read_scene.h>
 #include "io/gltf_rigs.h"
 #include "support/expect_error.h"
+#include "support/source_dir.h"
 
 namespace sinew::gltf_rig_test {
 
@@ -293,7 +294,7 @@ TEST_F(ReadGltfRig, RefusesAFileWithoutASkin) {
 }
 
 TEST(BoxBendGlb, MovesAsTheSceneOfTheSameName) {
-  const std::filesystem::path source = SINEW_SOURCE_DIR;
+  const std::filesystem::path source = test::source_dir();
   const Settings settings = read_scene(source / "configs/box_bend.yaml");
   const Skeleton skeleton = skeleton_of(settings);
   const Motion motion = motion_of(settings, skeleton);
@@ -316,7 +317,7 @@ TEST(BoxBendGlb, MovesAsTheSceneOfTheSameName) {
 
 TEST(BoxBendGlb, HoldsTheBoxAndItsWeights) {
   const std::filesystem::path file =
-      std::filesystem::path(SINEW_SOURCE_DIR) / "data/motions/box_bend.glb";
+      std::filesystem::path(test::source_dir()) / "data/motions/box_bend.glb";
   const SkinnedRig rig = read_gltf_rig(file);
   EXPECT_EQ(rig.mesh.points.size(), 1062u);
   EXPECT_EQ(rig.mesh.polygons.size(), 2120u);

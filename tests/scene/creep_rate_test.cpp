@@ -4,6 +4,7 @@
 #include <sinew/scene/prepare.h>
 #include <sinew/settings/read_scene.h>
 
+#include "support/source_dir.h"
 #include "support/temp_folder.h"
 
 namespace sinew::creep_rate_test {
@@ -11,7 +12,7 @@ namespace sinew::creep_rate_test {
 Prepared prepared(const std::string& material, const std::string& rest) {
   const TempFolder folder;
   const auto path = folder.write(
-      "scene.yaml", std::string("body: {mesh: ") + SINEW_SOURCE_DIR +
+      "scene.yaml", std::string("body: {mesh: ") + test::source_dir() +
                         "/data/meshes/box.obj, radius: 0.02}\nmaterial: {model: bonded, " +
                         material + "}\nsupports:\n  - {name: foot, facing: [0, 0, -1]}\n" + rest);
   return prepare({read_scene(path)});

@@ -4,6 +4,7 @@
 #include <sinew/scene/prepare.h>
 #include <sinew/settings/read_scene.h>
 
+#include "support/source_dir.h"
 #include "support/temp_folder.h"
 
 namespace sinew::stretch_test {
@@ -13,7 +14,7 @@ constexpr double length = 0.69296465;  // of the box and its bone, m
 Prepared prepared(double factor, const std::string& binding = {}) {
   const TempFolder folder;
   const auto path = folder.write(
-      "scene.yaml", std::string("body: {mesh: ") + SINEW_SOURCE_DIR +
+      "scene.yaml", std::string("body: {mesh: ") + test::source_dir() +
                         "/data/meshes/box.obj, radius: 0.015}\nmaterial: {model: bonded}\n"
                         "skeleton: {bones: [{name: bone, head: [0, 0, 0], tail: [0, 0, " +
                         std::to_string(length) +

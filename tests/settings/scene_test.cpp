@@ -6,6 +6,7 @@
 #include <sinew/settings/read_scene.h>
 
 #include "settings/small_scene.h"
+#include "support/source_dir.h"
 #include "support/temp_folder.h"
 
 namespace sinew::scene_test {
@@ -235,7 +236,7 @@ TEST_F(SceneTest, KeyInTheWrongPlaceIsSentHome) {
 TEST(ShippedScenes, BendAndTwistAreWholeScenes) {
   for (const char* name : {"box_bend", "box_twist"}) {
     const Settings settings =
-        read_scene(std::string(SINEW_SOURCE_DIR "/configs/") + name + ".yaml");
+        read_scene(std::string(test::source_dir() + "/configs/") + name + ".yaml");
     const Skeleton skeleton = skeleton_of(settings);
     const Motion motion = motion_of(settings, skeleton);
     EXPECT_EQ(skeleton.size(), 2u) << name;
@@ -247,7 +248,7 @@ TEST(ShippedScenes, BendAndTwistAreWholeScenes) {
 }
 
 TEST(ShippedScenes, BendTipsTheUpperBoneAndBringsItBack) {
-  const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/box_bend.yaml");
+  const Settings settings = read_scene(test::source_dir() + "/configs/box_bend.yaml");
   const Skeleton skeleton = skeleton_of(settings);
   const Motion motion = motion_of(settings, skeleton);
   const auto axis = [&](double time) { return pose_at(skeleton, motion, time)[1].axis(); };
@@ -259,7 +260,7 @@ TEST(ShippedScenes, BendTipsTheUpperBoneAndBringsItBack) {
 TEST(ShippedScenes, ArmAndCreatureBeginAndEndAtRest) {
   for (const char* name : {"arm_bend", "creature_walk"}) {
     const Settings settings =
-        read_scene(std::string(SINEW_SOURCE_DIR "/configs/") + name + ".yaml");
+        read_scene(std::string(test::source_dir() + "/configs/") + name + ".yaml");
     const Skeleton skeleton = skeleton_of(settings);
     const Motion motion = motion_of(settings, skeleton);
     const Pose rest = pose_at(skeleton, {}, 0);
@@ -274,7 +275,7 @@ TEST(ShippedScenes, ArmAndCreatureBeginAndEndAtRest) {
 }
 
 TEST(ShippedScenes, ArmMakesAFist) {
-  const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/arm_bend.yaml");
+  const Settings settings = read_scene(test::source_dir() + "/configs/arm_bend.yaml");
   const Skeleton skeleton = skeleton_of(settings);
   const Pose fist = pose_at(skeleton, motion_of(settings, skeleton), 1.6);
   const auto points = [&](const std::string& name) {
@@ -288,7 +289,7 @@ TEST(ShippedScenes, ArmMakesAFist) {
 }
 
 TEST(ShippedScenes, TwistTurnsTheUpperBoneAboutItself) {
-  const Settings settings = read_scene(SINEW_SOURCE_DIR "/configs/box_twist.yaml");
+  const Settings settings = read_scene(test::source_dir() + "/configs/box_twist.yaml");
   const Skeleton skeleton = skeleton_of(settings);
   const Pose pose = pose_at(skeleton, motion_of(settings, skeleton), settings.solver.duration);
   EXPECT_TRUE(pose[1].axis().isApprox(Vec3::UnitZ()));

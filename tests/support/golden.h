@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "support/scratch.h"
+#include "support/source_dir.h"
 
 namespace sinew::test {
 
@@ -22,7 +23,7 @@ inline std::string rounded(double value) {
 
 /// Compares with the file of that path below tests/, or writes it.
 inline void expect_golden(const std::string& file, const std::string& text) {
-  const auto path = std::filesystem::path(SINEW_SOURCE_DIR) / "tests" / file;
+  const auto path = std::filesystem::path(test::source_dir()) / "tests" / file;
   if (const char* wish = std::getenv("SINEW_GOLDEN"); wish && std::string(wish) == "update")
     put(path, text);
   std::istringstream found(text), expected(text_of(path));

@@ -18,6 +18,7 @@
 #include <sinew/volume/volume_cells.h>
 #include "mesh/shapes.h"
 #include "support/expect_error.h"
+#include "support/source_dir.h"
 
 namespace sinew::volume_cells_test {
 
@@ -57,7 +58,7 @@ Filled filled(const PolygonSoup& soup, PackOptions options) {
 }
 
 PolygonSoup of_data(const char* name) {
-  return read_polygons(std::string(SINEW_SOURCE_DIR "/data/meshes/") + name);
+  return read_polygons(std::string(test::source_dir() + "/data/meshes/") + name);
 }
 
 /// How many cells have each face.

@@ -25,6 +25,7 @@
 #include <sinew/io/vtu.h>
 #include <sinew/run/frame_writer.h>
 #include "support/scratch.h"
+#include "support/source_dir.h"
 #include "support/world.h"
 
 namespace sinew::vtk_data_sets_test {
@@ -108,7 +109,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_by_vtk(const std::filesystem::path& pa
 /// A bar that bends beside a plane, held and pulled, with everything measured.
 Prepared bar(bool double_precision) {
   Settings settings;
-  settings.body.mesh = SINEW_SOURCE_DIR "/data/meshes/box.obj";
+  settings.body.mesh = test::source_dir() + "/data/meshes/box.obj";
   settings.body.count = 300;
   settings.bones = {{"lower", "", Vec3(0, 0, 0), Vec3(0, 0, 0.34648)},
                     {"upper", "lower", {}, Vec3(0, 0, 0.69296)}};

@@ -464,14 +464,9 @@ void Simulation::reuse(Particles particles, Forces forces) {
     its_->particles.*axis = std::move(particles.*axis);
 }
 
-Reaction Simulation::resultant() {
-  evaluate();
-  return sinew::resultant(particles(), its_->forces, *its_->body, its_->stepping.gravity);
-}
-
 Unbalanced Simulation::unbalanced() {
   if (!its_->increments) return {};
-  const Reaction left = resultant();
+  const Reaction left = resultant(particles(), forces(), *its_->body, its_->stepping.gravity);
   return {left.force.norm(), left.moment.norm()};
 }
 

@@ -123,9 +123,7 @@ class Simulation {
   /// Memory of earlier ones, for those that are found next: spares the system from clearing new.
   void reuse(Particles particles, Forces forces);
 
-  /// All that acts on the body from outside, about its center of mass.
-  Reaction resultant();
-  /// The size of that, of a body that is brought to rest; else not-a-number.
+  /// The size of the resultant() of a body that is brought to rest; else not-a-number.
   Unbalanced unbalanced();
 
   /// Kinetic energy and dissipation are evaluated at the moment of the positions, so that the

@@ -41,8 +41,7 @@ Triangles skin_of(const VolumeCells& body) {
   std::vector<int> number(mesh.nodes.size(), -1);
   for (const ElementFace& face : boundary_faces(mesh)) {
     std::array<int, 3> corners{};
-    const std::vector<std::uint32_t> nodes =
-        face_nodes(mesh.elements[face.element], face.face);
+    const std::vector<std::uint32_t> nodes = face_nodes(mesh.elements[face.element], face.face);
     for (std::size_t k = 0; k < 3; ++k) {
       int& at = number[nodes[k]];
       if (at < 0) {
@@ -65,11 +64,11 @@ Triangles implicit_surface(const DistanceOf& distance, const Box& box, double ed
       [&](const Vec3& site) { return distance(site) < 0; });
   const Scaffold scaffold = honeycomb.around(0);
   if (scaffold.cells.empty()) return {};
-  return skin_of(stuffed(
-      scaffold,
-      {[&](const Vec3& point) { return distance(point) < 0; },
-       [&](const Vec3& in, const Vec3& out) { return zero_of(distance, in, out); }},
-      edge / 2));
+  return skin_of(
+      stuffed(scaffold,
+              {[&](const Vec3& point) { return distance(point) < 0; },
+               [&](const Vec3& in, const Vec3& out) { return zero_of(distance, in, out); }},
+              edge / 2));
 }
 
 }  // namespace sinew

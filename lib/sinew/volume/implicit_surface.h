@@ -12,7 +12,7 @@
 
 namespace sinew {
 
-/// Of a point (m) from a surface, negative inside, m.
+/// Distance of a point (m) from a surface, negative inside, m.
 using DistanceOf = std::function<double(const Vec3& point)>;
 
 /// The surface of all that is inside the box, closed and outward; empty where nothing is. Points

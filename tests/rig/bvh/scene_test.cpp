@@ -9,10 +9,11 @@
 #include <sinew/scene/rig.h>
 #include <sinew/scene/scene_files.h>
 #include <sinew/settings/read_scene.h>
+#include "support/source_dir.h"
 
 namespace sinew::scene_test {
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = test::source_dir();
 
 std::map<std::string, RigidFrame> frames_of(const Skeleton& skeleton, const Pose& pose) {
   std::map<std::string, RigidFrame> frames;
