@@ -8,9 +8,9 @@
 #include <sinew/core/text.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/winding.h>
-#include <sinew/scene/new/capsules.h>
 #include <sinew/rig/figure/figure.h>
 #include <sinew/rig/rest_at.h>
+#include <sinew/scene/new/capsules.h>
 #include <sinew/scene/scene_files.h>
 
 namespace sinew {
