@@ -57,7 +57,7 @@ share_cache() {
 }
 
 compiled_anew() {
-  echo "compiled in the root: $(grep -c cache_miss "$root/root/ccache.log") of $(grep -c '^#' "$root/root/ccache.log") object files"
+  echo "compiled in the root: $(grep -cx cache_miss "$root/root/ccache.log") of $(grep -c '^#' "$root/root/ccache.log") object files"
 }
 
 own_mesh() {
