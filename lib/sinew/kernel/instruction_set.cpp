@@ -4,9 +4,7 @@
 #include <sinew/kernel/kernel.h>
 
 namespace sinew::kernel {
-namespace {
-
-bool is_there(InstructionSet set) {
+bool has(InstructionSet set) {
 #ifdef SINEW_AVX512
   if (set == InstructionSet::avx512)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
@@ -17,10 +15,6 @@ bool is_there(InstructionSet set) {
 #endif
   return set == InstructionSet::plain;
 }
-
-}  // namespace
-
-bool has(InstructionSet set) { return is_there(set); }
 
 InstructionSet best_instruction_set() {
   for (const auto set : {InstructionSet::avx512, InstructionSet::avx2})
