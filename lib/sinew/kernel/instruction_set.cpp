@@ -4,6 +4,7 @@
 #include <sinew/kernel/kernel.h>
 
 namespace sinew::kernel {
+
 bool has(InstructionSet set) {
 #ifdef SINEW_AVX512
   if (set == InstructionSet::avx512)
