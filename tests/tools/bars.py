@@ -73,10 +73,11 @@ output: {{interval: {duration}}}
 """
 
 
-def write_box(path, width, length):
+def write_box(path, width, length, at=(0, 0, 0)):
+    """Upright, the middle of its base `at` a place."""
     half = width / 2
     corners = [(x, y, z) for z in (0, length) for x, y in ((-half, -half), (half, -half), (half, half), (-half, half))]
-    lines = ["v {:.17g} {:.17g} {:.17g}".format(*corner) for corner in corners]
+    lines = ["v {:.17g} {:.17g} {:.17g}".format(*(x + by for x, by in zip(corner, at))) for corner in corners]
     lines += ["f {} {} {}".format(*(corner + 1 for corner in face)) for face in FACES]
     path.write_text("\n".join(lines) + "\n")
 

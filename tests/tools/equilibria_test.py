@@ -30,7 +30,7 @@ BENDING = YOUNG_MODULUS * WIDTH ** 4 / 4 / HEIGHT ** 3  # N/m, of the free end a
 SCENE = """
 body: {{mesh: bar.obj, radius: 0.01{body}}}
 material: {{model: {model}, young_modulus: 1e5{material}}}
-probes: [{{name: middle, low: [-1, -1, {low}], high: [1, 1, {high}]}}]
+probes: [{{name: middle, low: [{low}], high: [{high}]}}]
 solver: {{method: static, duration: 1, residual: {residual}}}
 output: {{interval: 0.25, arrays: "stress, strain", bonds: true, volume: true}}
 {machine}
@@ -120,10 +120,12 @@ class Equilibria(unittest.TestCase):
     def tearDown(self):
         self.temporary.cleanup()
 
-    def scene(self, machine, model="bonded", body="", material="", residual=RESIDUAL):
+    def scene(self, machine, model="bonded", body="", material="", residual=RESIDUAL, at=(0, 0, 0)):
         path = self.folder / "bar.yaml"
-        path.write_text(SCENE.format(machine=machine, model=model, body=body, material=material, low=0.4 * HEIGHT,
-                                     high=0.6 * HEIGHT, residual=residual))
+        low, high = (", ".join(str(x + by) for x, by in zip(corner, at))
+                     for corner in ((-1, -1, 0.4 * HEIGHT), (1, 1, 0.6 * HEIGHT)))
+        path.write_text(SCENE.format(machine=machine, model=model, body=body, material=material, low=low, high=high,
+                                     residual=residual))
         return path
 
     def run_by(self, solver, *words, measured=True):
@@ -217,6 +219,19 @@ class Equilibria(unittest.TestCase):
                 newton = self.run_by("newton")
                 self.assertLess(self.record(newton)["load_steps"][-1]["iterations"], 100)
                 self.assert_same_frames(newton, self.run_by("relaxation"))
+
+    def test_a_body_far_from_the_origin_rests_as_at_it(self):
+        """Where coordinates have fewer digits left for forces."""
+        forces = []
+        for way in (0, 1e4):
+            place = (way, -2 * way, way / 2)
+            write_box(self.folder / "bar.obj", WIDTH, HEIGHT, place)
+            self.scene(GRIP, residual=1e-4, at=place)
+            for solver in ("newton", "relaxation"):
+                out = self.run_by(solver, "--set", "output.volume=false", measured=False)
+                forces.append([[float(row["force_" + axis]) for axis in "xyz"] for row in rows(out / "supports.csv")])
+        for found in forces[1:]:
+            self.assertLess(numpy.abs(numpy.subtract(found, forces[0])).max(), 2e-3 * numpy.abs(forces[0]).max())
 
     def test_nothing_acts_before_anything_moves(self):
         for machine in (GRIP, OBSTACLE, BONE):

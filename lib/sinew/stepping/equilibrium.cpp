@@ -35,6 +35,9 @@ constexpr int patience_between = 8;
 // for any progress.
 constexpr double progress = 0.9;
 constexpr std::int64_t stalled_after = 20'000;
+constexpr const char* against_rounding =
+    "make the load or solver.residual larger, move the mesh nearer to the origin, or in single "
+    "precision set solver.precision to double";
 
 /// Factor on an increment that strained a body so, for the next one; up to `longest`.
 double allowed(double strain, double longest) {
@@ -253,9 +256,7 @@ void Relaxation::refuse_noise() const {
   throw Error(Exit::unstable, moment_text() + " cannot be brought to a residual of " +
                                   three_digits(steps_.residual) +
                                   ": rounding hides what is below " +
-                                  three_digits(noise_ / reference()) +
-                                  "; make the load or solver.residual larger, or in single "
-                                  "precision set solver.precision to double");
+                                  three_digits(noise_ / reference()) + "; " + against_rounding);
 }
 
 std::string Relaxation::moment_text() const {
@@ -270,8 +271,7 @@ void Relaxation::give_up() const {
                   three_digits(residual()) + " after " +
                   std::to_string(now_.spent + now_.iterations) + " iterations, not " +
                   three_digits(steps_.residual) +
-                  (near_noise ? "; rounding may leave no less: make the load or solver.residual "
-                                "larger, or in single precision set solver.precision to double"
+                  (near_noise ? std::string("; rounding may leave no less: ") + against_rounding
                               : "; make solver.iterations larger and resume, or make "
                                 "output.interval shorter"));
 }
@@ -319,10 +319,12 @@ Relaxation::Iteration relaxation_of(const Body& body, Stepper& stepper, double s
                     "search neighbors by lists, and leave all particles free");
   SimulationState state;
   stepper.save(state);
-  const double extent = bounds(body.rest).diagonal().norm();
-  const double unit = std::holds_alternative<MovingInSingle>(state.moving)
-                          ? state.fixed_point_units.length
-                          : extent * std::numeric_limits<double>::epsilon();
+  const Box box = bounds(body.rest);
+  const double coordinate = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  const double unit =
+      std::holds_alternative<MovingInSingle>(state.moving)
+          ? state.fixed_point_units.length
+          : std::max(coordinate, box.diagonal().norm()) * std::numeric_limits<double>::epsilon();
   return {step, noise_of(body, unit), body.material.pair.r};
 }
 
