@@ -31,7 +31,7 @@ own=/root/own/two_fingers
 clone=${cache:+$PWD}  # compilers are told absolute paths
 clone=${clone:-/root/sinew}
 settings=${cache:+env CCACHE_DIR=/root/.ccache CCACHE_STATSLOG=/root/ccache.log CCACHE_BASEDIR=$PWD
-  CCACHE_SLOPPINESS=pch_defines,time_macros CMAKE_CXX_COMPILER_LAUNCHER=ccache}
+  CCACHE_SLOPPINESS=pch_defines,time_macros,locale CMAKE_CXX_COMPILER_LAUNCHER=ccache}
 
 fail() {
   echo "$*" >&2

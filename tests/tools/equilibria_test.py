@@ -233,6 +233,14 @@ class Equilibria(unittest.TestCase):
         for found in forces[1:]:
             self.assertLess(numpy.abs(numpy.subtract(found, forces[0])).max(), 2e-3 * numpy.abs(forces[0]).max())
 
+    def test_forces_that_single_precision_hides_are_told(self):
+        """A slender bar yields to a force that is nothing beside the rounding of what strains it."""
+        write_box(self.folder / "bar.obj", WIDTH, 65 * LAYER)
+        scene = self.scene(GRIP.replace("0.03, 0.01", "0.3, 0.1"), residual=1e-3)
+        for precision, is_told in (("single", True), ("double", False)):
+            done = sinew("simulate", scene, "-o", self.folder / precision, "--set", f"solver.precision={precision}")
+            self.assertEqual("the forces on the body sum to" in done.stderr, is_told, done.stderr)
+
     def test_nothing_acts_before_anything_moves(self):
         for machine in (GRIP, OBSTACLE, BONE):
             self.scene(machine)

@@ -303,7 +303,8 @@ class Run {
     warn("at " + three_digits(time) + " s the forces on the body sum to " +
          three_digits(left.force) + " N and " + three_digits(left.moment) +
          " N m, where its equilibrium allows " + three_digits(found.tolerance) +
-         " N: do not trust this frame; make solver.residual smaller, and report it");
+         " N: do not trust this frame; set solver.precision to double, or make solver.residual "
+         "smaller");
   }
 
   void warn_of_inverted() const {

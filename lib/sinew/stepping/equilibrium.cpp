@@ -79,6 +79,7 @@ Relaxation::Relaxation(LoadSteps steps, const Iteration& iteration)
     : steps_(std::move(steps)),
       step_(iteration.step),
       noise_(iteration.noise),
+      negligible_(iteration.negligible),
       radius_(iteration.radius) {}
 
 int Relaxation::ramp() const {
@@ -144,7 +145,7 @@ double Relaxation::residual() const {
 }
 
 double Relaxation::tolerance() const {
-  return std::max(steps_.residual * reference(), at_rounding * noise_);
+  return std::max(steps_.residual * reference(), at_rounding * negligible_);
 }
 
 /// The Rayleigh quotient of the last motion, which the change of the accelerations gives.
@@ -321,11 +322,11 @@ Relaxation::Iteration relaxation_of(const Body& body, Stepper& stepper, double s
   stepper.save(state);
   const Box box = bounds(body.rest);
   const double coordinate = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  const double fine =
+      std::max(coordinate, box.diagonal().norm()) * std::numeric_limits<double>::epsilon();
   const double unit =
-      std::holds_alternative<MovingInSingle>(state.moving)
-          ? state.fixed_point_units.length
-          : std::max(coordinate, box.diagonal().norm()) * std::numeric_limits<double>::epsilon();
-  return {step, noise_of(body, unit), body.material.pair.r};
+      std::holds_alternative<MovingInSingle>(state.moving) ? state.fixed_point_units.length : fine;
+  return {step, noise_of(body, unit), noise_of(body, fine), body.material.pair.r};
 }
 
 }  // namespace sinew

@@ -78,7 +78,9 @@ struct Equilibrium {
   std::size_t inverted = 0;  ///< particles
   /// Unstable equilibria on the way, by negative pivots: the body may buckle this way or another.
   std::int64_t unstable = 0;
-  double tolerance = 0;  ///< upper bound of the lengths of all forces that nothing answers, N
+  /// Upper bound of the lengths of all forces that nothing answers, N, unless the rounding of
+  /// single precision hides them.
+  double tolerance = 0;
 };
 
 /// How an increment has strained a body.
@@ -99,9 +101,10 @@ void stop(Pose& pose);
 class Relaxation {
  public:
   struct Iteration {
-    double step = 0;    ///< the largest, s
-    double noise = 0;   ///< what rounding leaves of the forces on all particles, N
-    double radius = 0;  ///< of a particle, m
+    double step = 0;        ///< the largest, s
+    double noise = 0;       ///< what rounding leaves of the forces on all particles, N
+    double negligible = 0;  ///< the same in double precision, N
+    double radius = 0;      ///< of a particle, m
   };
   Relaxation(LoadSteps steps, const Iteration& iteration);
 
@@ -176,7 +179,7 @@ class Relaxation {
   [[noreturn]] void give_up() const;
 
   LoadSteps steps_;
-  double step_, noise_, radius_;
+  double step_, noise_, negligible_, radius_;
   RelaxationState now_;
   Equilibrium last_;
 };
