@@ -57,8 +57,17 @@ def open_series(folder):
     return [OpenSeries(name, rows) for name, rows in found if rows]
 
 
+def complete(path):
+    """Whether a file ends as XML of VTK does; its reader, given one that was cut, reports an error or crashes."""
+    try:
+        with open(path, "rb") as file:
+            file.seek(max(os.path.getsize(path) - 64, 0))
+            return file.read().rstrip().endswith(b"</VTKFile>")
+    except OSError:
+        return False
+
+
 def readable(path):
-    """Whether a file is complete XML."""
     try:
         ET.parse(path)
     except (OSError, ET.ParseError):
@@ -76,6 +85,8 @@ class OpenSeries:
     def choose(self, selection):
         """Offers its arrays: those of the first frame that can be read."""
         for _, path in (self.rows[0], self.rows[len(self.rows) // 2], self.rows[-1]):
+            if not complete(path):
+                continue
             self.reader.SetFileName(path)
             self.reader.UpdateInformation()
             if self._own_arrays():
@@ -93,15 +104,19 @@ class OpenSeries:
         for own, name in self._own_arrays():
             own.SetArraySetting(name, int(selection.ArrayIsEnabled(f"{self.name}: {name}")))
 
-    def at(self, time, selection):
-        """The frame at a time or the last before it; before all of them the first."""
-        row = max((row for row in self.rows if row[0] <= time + 1e-9 * abs(time)), default=self.rows[0])
-        self.reader.SetFileName(row[1])
+    def _read(self, path, selection):
+        """Number of points of a frame."""
+        self.reader.SetFileName(path)
         self.reader.UpdateInformation()
         self.apply(selection)
         self.reader.Update()
-        number = self.reader.GetOutput().GetNumberOfPoints()
-        if number == 0 and (self.number or not readable(row[1])):  # all frames of a series have the same points
+        return self.reader.GetOutput().GetNumberOfPoints()
+
+    def at(self, time, selection):
+        """The frame at a time or the last before it; before all of them the first."""
+        row = max((row for row in self.rows if row[0] <= time + 1e-9 * abs(time)), default=self.rows[0])
+        number = self._read(row[1], selection) if complete(row[1]) else None
+        if number is None or (number == 0 and (self.number or not readable(row[1]))):  # all frames have the same points
             raise Refused(f"{row[1]}: cannot be read; see sinew info {os.path.dirname(os.path.dirname(row[1]))} --verify")
         self.number = number
         shown = vtkUnstructuredGrid()
