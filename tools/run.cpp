@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include <sinew/core/json.h>
 #include <sinew/core/system.h>
 #include <sinew/run/run_folder.h>
 #include "command/child.h"
@@ -105,7 +106,7 @@ class Stages {
   }
 
   Exit taken(const std::string& command, const ChildEnd& end) {
-    const auto found = nlohmann::ordered_json::parse(end.output, nullptr, false);
+    const auto found = parsed_json<nlohmann::ordered_json>(end.output);
     if (found.is_object()) collect(found);
     return exit_of(command, end);
   }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include <sinew/core/json.h>
 #include <sinew/core/text.h>
 #include <sinew/run/simulate.h>
 #include <sinew/scene/body.h>
@@ -23,7 +24,7 @@ struct Options : RunOptions {
 };
 
 void print_results(const RunFolder& folder, const std::string& text, const Common& common) {
-  const auto record = nlohmann::ordered_json::parse(text);
+  const auto record = parsed_json<nlohmann::ordered_json>(text);
   Results results;
   results.add("folder", folder.path.string());
   for (const char* key : {"status", "particles", "frames", "steps", "time_step", "time_step_limit",

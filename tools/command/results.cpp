@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include <sinew/core/error.h>
+#include <sinew/core/json.h>
 #include <sinew/core/text.h>
 
 #include "command/command.h"
@@ -17,9 +18,6 @@ namespace sinew {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// File names may be in any encoding; JSON is UTF-8.
-constexpr auto replace_wrong_bytes = Json::error_handler_t::replace;
 
 std::string four_digits(double value) {
   std::array<char, 32> text;
@@ -31,11 +29,11 @@ std::string plain(const Json& value, bool briefly) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float())
     return briefly ? four_digits(value.get<double>()) : number_text(value.get<double>());
-  if (!briefly || !value.is_array()) return value.dump(-1, ' ', false, replace_wrong_bytes);
+  if (!briefly || !value.is_array()) return json_text(value);
   std::string list;
   for (const Json& one : value) {
-    const std::string text = one.is_number_float() ? four_digits(one.get<double>())
-                                                   : one.dump(-1, ' ', false, replace_wrong_bytes);
+    const std::string text =
+        one.is_number_float() ? four_digits(one.get<double>()) : json_text(one);
     list += (list.empty() ? "" : ", ") + text;
   }
   return '[' + list + ']';
@@ -115,7 +113,7 @@ std::string Results::json() const {
     if (one.in == In::both || one.in == In::object) object[one.key] = one.value;
   const std::vector<std::string> words = headlines();
   if (!words.empty()) object["summary"] = words;
-  return without_terminal_controls(object.dump(2, ' ', false, replace_wrong_bytes)) + '\n';
+  return without_terminal_controls(json_text(object, 2)) + '\n';
 }
 
 void Results::print(const Common& common) const {

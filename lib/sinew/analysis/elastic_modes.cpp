@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/analysis/elastic_modes.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +10,7 @@
 #include <sinew/analysis/detail/free_body.h>
 #include <sinew/analysis/detail/nearly_solved.h>
 #include <sinew/body/bond_factors.h>
+#include <sinew/core/decompositions.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/union_find.h>
 
@@ -135,13 +135,12 @@ class ModeFinder {
   /// With respect to the masses; what depends on others is left out.
   Matrix orthonormal(const Matrix& from) const {
     const Matrix even = of_norm_1(from);
-    const Eigen::SelfAdjointEigenSolver<Matrix> gram(even.transpose() * body_.with_mass(even));
+    const auto [values, vectors] = eigendecomposition(even.transpose() * body_.with_mass(even));
     Eigen::Index dependent = 0;
-    while (dependent < gram.eigenvalues().size() && gram.eigenvalues()[dependent] < 1e-10)
-      ++dependent;
-    const Eigen::Index left = gram.eigenvalues().size() - dependent;
-    return even * gram.eigenvectors().rightCols(left) *
-           gram.eigenvalues().tail(left).cwiseSqrt().cwiseInverse().asDiagonal();
+    while (dependent < values.size() && values[dependent] < 1e-10) ++dependent;
+    const Eigen::Index left = values.size() - dependent;
+    return even * vectors.rightCols(left) *
+           values.tail(left).cwiseSqrt().cwiseInverse().asDiagonal();
   }
 
   Vector norms(const Matrix& of) const {
@@ -182,11 +181,11 @@ class ModeFinder {
     const Matrix forces = body_.stiffness(basis);
     Matrix reduced = basis.transpose() * forces;
     reduced = (reduced + reduced.transpose()).eval() / 2;
-    const Eigen::SelfAdjointEigenSolver<Matrix> of(reduced);
+    const auto [values, vectors] = eigendecomposition(reduced);
     const Eigen::Index count = std::min(most, basis.cols());
-    squared_ = of.eigenvalues().head(count);
-    modes_ = basis * of.eigenvectors().leftCols(count);
-    stiffness_ = forces * of.eigenvectors().leftCols(count);
+    squared_ = values.head(count);
+    modes_ = basis * vectors.leftCols(count);
+    stiffness_ = forces * vectors.leftCols(count);
   }
 
   void forget_floppy(double smooth) {
@@ -293,7 +292,7 @@ double ElasticModes::damping_ratio(double damping) const {
     const double now =
         steps == 1 ? damping : begin * std::pow(damping / begin, step / (steps - 1.0));
     first_order.bottomRightCorner(n, n) = -now * rates;
-    const Eigen::VectorXcd values = first_order.eigenvalues();
+    const Eigen::VectorXcd values = eigenvalues_of_any(first_order);
     std::complex<double> nearest = values[0];
     for (const std::complex<double>& value : values)
       if (value.imag() >= 0 && std::abs(value - at) < std::abs(nearest - at)) nearest = value;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/analysis/free_motion.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <sinew/core/cell_grid.h>
+#include <sinew/core/decompositions.h>
 #include <sinew/core/text.h>
 #include <sinew/core/union_find.h>
 #include <sinew/world/world.h>
@@ -115,18 +115,17 @@ void add_restraints(const Body& body, const std::vector<std::size_t>& component,
 /// The motion that is restrained least, of those that move the component; of length 0 where all
 /// are.
 Motion6 free_of(const Component& component) {
-  const Eigen::SelfAdjointEigenSolver<Gram> moved(component.moved);
-  const double most = moved.eigenvalues()[5];
+  const Eigendecomposition moved = eigendecomposition(component.moved);
+  const double most = moved.values[5];
   int first = 0;
-  while (moved.eigenvalues()[first] < none * most) ++first;
+  while (moved.values[first] < none * most) ++first;
   const Eigen::Matrix<double, 6, Eigen::Dynamic> motions =
-      moved.eigenvectors().rightCols(6 - first) *
-      moved.eigenvalues().tail(6 - first).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> restrained(
-      Eigen::MatrixXd(motions.transpose() * component.restrained * motions));
-  if (restrained.eigenvalues()[0] > none * restrained.eigenvalues().tail(1)[0])
-    return Motion6::Zero();
-  return motions * restrained.eigenvectors().col(0);
+      moved.vectors.rightCols(6 - first) *
+      moved.values.tail(6 - first).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigendecomposition restrained =
+      eigendecomposition(motions.transpose() * component.restrained * motions);
+  if (restrained.values[0] > none * restrained.values.tail(1)[0]) return Motion6::Zero();
+  return motions * restrained.vectors.col(0);
 }
 
 /// Scales to length 1, with the largest component positive.

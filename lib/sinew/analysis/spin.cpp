@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/analysis/spin.h>
 
-#include <Eigen/Eigenvalues>
 #include <limits>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/particles.h>
 
 namespace sinew {
@@ -50,8 +50,8 @@ double spin_time(const Body& body) {
   }
   if (!(inertia.determinant() > 0)) return never;
   const Mat3 even = (braking + braking.transpose()) / 2;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat3> modes(even, inertia, Eigen::EigenvaluesOnly);
-  const double rate = material.damping * modes.eigenvalues().maxCoeff();
+  const Mat3 root = inverse_root(inertia);
+  const double rate = material.damping * eigenvalues(root * even * root)[2];
   return rate > 0 ? 1 / rate : never;
 }
 

@@ -2,12 +2,12 @@
 #include <sinew/body/bond_factors.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <sinew/body/volume_weights.h>
+#include <sinew/core/decompositions.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/material/local_strength.h>
@@ -196,7 +196,7 @@ class SurfaceBonds {
       const Vec3 X = rest_[j] - rest_[i];
       sum += *factor++ * relative_stiffness(X.norm()) / X.squaredNorm() * X * X.transpose();
     }
-    return Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2];
+    return eigenvalues(sum)[2];
   }
 
   const Points& rest_;

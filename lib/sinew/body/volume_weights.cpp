@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/body/volume_weights.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include <sinew/body/bond_factors.h>
 #include <sinew/body/pair_pass.h>
 #include <sinew/core/cell_grid.h>
+#include <sinew/core/decompositions.h>
 
 namespace sinew {
 namespace {
@@ -67,8 +67,7 @@ class Spreading {
 }  // namespace
 
 double volume_weight(const Mat3& A, double radius) {
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double least = eigenvalues(A)[0];
   const double volume_share = std::clamp(least / (16 * radius * radius), 0.0, 1.0);
   return volume_share < 1e-9 ? 0 : volume_share * volume_share;
 }

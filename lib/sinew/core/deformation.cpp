@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/core/deformation.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/parallel.h>
 
 namespace sinew {
@@ -16,19 +15,9 @@ constexpr std::size_t points_at_a_time = 1024;
 constexpr double flat = 1e-6;
 
 Mat3 inverse_or_zero(const Mat3& spread) {
-  const Vec3 eigenvalues = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
-  if (!(eigenvalues[0] > flat * eigenvalues[2])) return Mat3::Zero();
+  const Vec3 values = eigenvalues(spread);
+  if (!(values[0] > flat * values[2])) return Mat3::Zero();
   return spread.inverse();
-}
-
-/// Turns one unit vector to the other; a half turn, of any axis, where they are opposite. Eigen's
-/// FromTwoVectors does the same by a singular value decomposition that takes seconds to compile.
-Mat3 shortest_rotation(const Vec3& from, const Vec3& to) {
-  const double cosine = from.dot(to);
-  if (!(cosine > -1 + 1e-12)) return Eigen::AngleAxisd(pi, from.unitOrthogonal()).matrix();
-  const double twice_w = std::sqrt(2 * (1 + cosine));
-  const Vec3 v = from.cross(to) / twice_w;
-  return Quat(twice_w / 2, v.x(), v.y(), v.z()).toRotationMatrix();
 }
 
 template <class Counts>
@@ -116,15 +105,12 @@ AffineFit affine_fit(const RestShape& rest, const Points& now, std::size_t i) {
 }
 
 Mat3 rotation_part(const Mat3& F) {
-  const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vec3& sizes = svd.singularValues();
+  auto [U, sizes, V] = singular_values(F);
   if (!(sizes[1] > flat * sizes[0]))  // of a line: the shortest rotation; of a point: none
-    return sizes[0] > 0 ? shortest_rotation(svd.matrixV().col(0), svd.matrixU().col(0))
+    return sizes[0] > 0 ? shortest_rotation(V.col(0), U.col(0)).toRotationMatrix()
                         : Mat3(Mat3::Identity());
-  Mat3 U = svd.matrixU();
-  if ((U * svd.matrixV().transpose()).determinant() < 0)
-    U.col(2) *= -1;  // the least stretched direction
-  return U * svd.matrixV().transpose();
+  if ((U * V.transpose()).determinant() < 0) U.col(2) *= -1;  // the least stretched direction
+  return U * V.transpose();
 }
 
 }  // namespace sinew

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 
 namespace sinew {
 namespace {
@@ -29,5 +30,30 @@ JsonExtent json_extent(std::string_view text) {
   }
   return extent;
 }
+
+template <class Json>
+Json parsed_json(std::string_view text) {
+  return Json::parse(text, nullptr, false);
+}
+
+template <class Json>
+Json own_json(std::string_view text) {
+  constexpr int max_depth = 16;
+  if (json_extent(text).depth > max_depth) return Json(Json::value_t::discarded);
+  return parsed_json<Json>(text);
+}
+
+template <class Json>
+std::string json_text(const Json& value, int indent) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+using nlohmann::json, nlohmann::ordered_json;
+template json parsed_json(std::string_view);
+template json own_json(std::string_view);
+template std::string json_text(const json&, int);
+template ordered_json parsed_json(std::string_view);
+template ordered_json own_json(std::string_view);
+template std::string json_text(const ordered_json&, int);
 
 }  // namespace sinew

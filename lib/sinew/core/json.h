@@ -18,19 +18,20 @@ struct JsonExtent {
 /// Measures any text; meaningful where it is JSON.
 JsonExtent json_extent(std::string_view text);
 
-/// The value of a JSON text that sinew wrote, as nlohmann's type `Json`; discarded where the text
-/// is not JSON, or nested more deeply than sinew nests.
+// Json is nlohmann::json or nlohmann::ordered_json, whose parser and writer are compiled here,
+// once.
+
+/// The value of a JSON text; discarded where the text is none.
 template <class Json>
-Json own_json(std::string_view text) {
-  constexpr int max_depth = 16;
-  if (json_extent(text).depth > max_depth) return Json(Json::value_t::discarded);
-  return Json::parse(text, nullptr, false);
-}
+Json parsed_json(std::string_view text);
+
+/// The value of a JSON text that sinew wrote; discarded where the text is not JSON, or nested more
+/// deeply than sinew nests.
+template <class Json>
+Json own_json(std::string_view text);
 
 /// The text of a value; names of files in it may be in any encoding, JSON is UTF-8.
 template <class Json>
-std::string json_text(const Json& value, int indent = -1) {
-  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
+std::string json_text(const Json& value, int indent = -1);
 
 }  // namespace sinew

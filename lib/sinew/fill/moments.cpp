@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/fill/moments.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include <sinew/core/decompositions.h>
 
 namespace sinew {
 namespace {
@@ -12,9 +13,7 @@ Mat3 inertia_of(const Mat3& second) { return second.trace() * Mat3::Identity() -
 
 }  // namespace
 
-Vec3 Moments::principal() const {
-  return Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-}
+Vec3 Moments::principal() const { return eigenvalues(inertia); }
 
 Moments moments_of(const Triangles& surface) {
   const Vec3 middle = bounds(surface.points).center();  // preserves precision far from the origin

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/groups/make_grouping.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,6 +9,7 @@
 
 #include <sinew/body/body.h>
 #include <sinew/core/cell_grid.h>
+#include <sinew/core/decompositions.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
@@ -190,8 +190,7 @@ struct Moments {
   bool is_thick(double r) const {
     const Vec3 mean = x / count;
     const Mat3 spread = xx / count - mean * mean.transpose();
-    return Eigen::SelfAdjointEigenSolver<Mat3>(spread, Eigen::EigenvaluesOnly).eigenvalues()[0] >
-           thinnest * r * r;
+    return eigenvalues(spread)[0] > thinnest * r * r;
   }
 };
 

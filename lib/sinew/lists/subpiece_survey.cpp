@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/lists/subpiece_survey.h>
 
-#include <Eigen/Dense>
+#include <sinew/core/decompositions.h>
 
 namespace sinew {
 namespace {
@@ -51,10 +51,8 @@ PieceNow motion_of(const kernel::Survey& survey, std::size_t particles, const Ve
 }
 
 Mat3 axes_of(const kernel::Survey& survey, std::size_t particles) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> found(spread_of(survey, particles));
-  return found.info() == Eigen::Success && found.eigenvectors().allFinite()
-             ? found.eigenvectors()
-             : Mat3(Mat3::Identity());
+  const Mat3 axes = principal_axes(spread_of(survey, particles)).axes;
+  return axes.allFinite() ? axes : Mat3(Mat3::Identity());
 }
 
 }  // namespace sinew

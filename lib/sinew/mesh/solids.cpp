@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sinew/core/decompositions.h>
+
 namespace sinew {
 namespace {
 
@@ -82,7 +84,7 @@ Triangles capsule_between(const Vec3& from, const Vec3& to, double radius) {
   const Vec3 size(2 * radius, 2 * radius, along.norm() + 2 * radius);
   Triangles capsule =
       revolved(rings_of(SolidShape::capsule, size, faces_of_limb), radius, radius, faces_of_limb);
-  const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), along);
+  const Quat turn = shortest_rotation(Vec3::UnitZ(), along.normalized());
   for (Vec3& point : capsule.points) point = from + turn * (point - Vec3(0, 0, radius));
   return capsule;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/bone_metrics.h>
 
-#include <Eigen/Eigenvalues>
 #include <array>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/particles.h>
 #include <sinew/metrics/files.h>
 
@@ -116,8 +116,7 @@ double turn_error(const LimbMoments& limb, const Mat3& bone_turn, double radius)
   const Mat3 spread =
       limb.XX / limb.count - limb.X * limb.X.transpose() / (limb.count * limb.count);
   const Mat3 moved = limb.xX / limb.count - limb.x * limb.X.transpose() / (limb.count * limb.count);
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread, Eigen::EigenvaluesOnly);
-  if (!moved.allFinite() || axes.eigenvalues()[1] < radius * radius) return not_measured;
+  if (!moved.allFinite() || eigenvalues(spread)[1] < radius * radius) return not_measured;
   const Mat3 off = rotation_part(moved).transpose() * bone_turn;
   return degrees(Eigen::AngleAxisd(off).angle());
 }

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <sinew/core/json.h>
 #include <sinew/metrics/table.h>
 
 namespace sinew {
@@ -31,11 +32,6 @@ Json json_of(std::span<const Check> checks) {
                    {"frame", check.frame ? Json(*check.frame) : Json()},
                    {"pass", check.pass}});
   return all;
-}
-
-/// The file's text; names that are not UTF-8 are converted.
-std::string json_text(const Json& file) {
-  return file.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 Json metrics_of(std::span<const FrameMetrics> frames, const Summary& summary) {
@@ -128,7 +124,7 @@ std::string metrics_json(std::span<const FrameMetrics> frames, const Summary& su
   file["run"] = run_metrics_of(summary);
   file["holds"] = holds_of(frames, summary);
   file["checks"] = json_of(checks);
-  return json_text(file);
+  return json_text(file, 2) + '\n';
 }
 
 std::string comparison_json(const RunComparison& compared) {
@@ -143,7 +139,7 @@ std::string comparison_json(const RunComparison& compared) {
   file["metrics"] = metrics_of(compared);
   file["run"] = run_metrics_of(compared);
   file["checks"] = json_of(compared.checks);
-  return json_text(file);
+  return json_text(file, 2) + '\n';
 }
 
 }  // namespace sinew

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/particle_values.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/metrics/pair_forces.h>
@@ -41,9 +41,7 @@ void add_deformation(ParticleValues& out, const RestShape& shape, const Points& 
     out.J[i] = out.strain[i] = out.stretch[i] = out.D2min[i] = not_measured;
     if (!shape.defined(i)) return;
     const Mat3 F = deformation_gradient(shape, now, i);
-    Eigen::SelfAdjointEigenSolver<Mat3> principal;
-    principal.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
-    const Vec3 squares = principal.eigenvalues().cwiseMax(flattest);
+    const Vec3 squares = eigenvalues_in_closed_form(F.transpose() * F).cwiseMax(flattest);
     out.J[i] = F.determinant();
     out.strain[i] = equivalent(squares.array().log() / 2, 2.0 / 3);
     out.stretch[i] = std::sqrt(squares.maxCoeff());
@@ -177,12 +175,8 @@ Column of_gradient(std::string_view name, const RestBody& rest, const Points& no
 }
 
 /// Principal values of F^T F, ascending, with their directions.
-Eigen::SelfAdjointEigenSolver<Mat3> right_cauchy_green(const Mat3& F) {
-  return Eigen::SelfAdjointEigenSolver<Mat3>(F.transpose() * F);
-}
-
 Values<3> stretches(const Mat3& F) {
-  const Vec3 squares = right_cauchy_green(F).eigenvalues().cwiseMax(flattest);
+  const Vec3 squares = eigenvalues(F.transpose() * F).cwiseMax(flattest);
   return {std::sqrt(squares[2]), std::sqrt(squares[1]), std::sqrt(squares[0])};
 }
 
@@ -191,9 +185,8 @@ Values<6> green_lagrange(const Mat3& F) {
 }
 
 Values<6> hencky(const Mat3& F) {
-  const auto principal = right_cauchy_green(F);
-  const Vec3 logs = principal.eigenvalues().cwiseMax(flattest).array().log() / 2;
-  const Mat3& directions = principal.eigenvectors();
+  const auto [squares, directions] = principal_axes(F.transpose() * F);
+  const Vec3 logs = squares.cwiseMax(flattest).array().log() / 2;
   return symmetric(directions * logs.asDiagonal() * directions.transpose());
 }
 

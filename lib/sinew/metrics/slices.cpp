@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/metrics/slices.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/deformation.h>
 #include <sinew/core/particles.h>
 
@@ -51,7 +51,7 @@ bool has_turn(const Members& members, const Points& rest) {
   const Vec3 center = center_of(members, rest);
   Mat3 spread = Mat3::Zero();
   for (const auto i : members) spread += (rest[i] - center) * (rest[i] - center).transpose();
-  const Vec3 extents = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
+  const Vec3 extents = eigenvalues(spread);
   return extents[1] > in_a_line * extents[2];
 }
 

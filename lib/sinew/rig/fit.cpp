@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/fit.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/error.h>
 
 namespace sinew {
@@ -142,7 +142,7 @@ Mat3 main_axes(const Points& points) {
   for (const Vec3& point : points) mean += point / static_cast<double>(points.size());
   Mat3 spread = Mat3::Zero();
   for (const Vec3& point : points) spread += (point - mean) * (point - mean).transpose();
-  Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors();
+  Mat3 axes = principal_axes(spread).axes;
   if (axes.determinant() < 0) axes.col(0) *= -1;
   return axes;
 }

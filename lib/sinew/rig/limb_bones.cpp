@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/limbs.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+
+#include <sinew/core/decompositions.h>
 
 namespace sinew {
 namespace {
@@ -96,7 +97,7 @@ Mat3 thin_axes(const std::vector<Limb>& limbs, int body) {
   for (const Limb& limb : limbs)
     if (limb.body == body)
       for (const Vec3& p : limb.line) spread += (p - box.center()) * (p - box.center()).transpose();
-  Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors();
+  Mat3 axes = principal_axes(spread).axes;
   for (int i = 0; i < 3; ++i) {
     Eigen::Index widest = 0;
     axes.col(i).cwiseAbs().maxCoeff(&widest);

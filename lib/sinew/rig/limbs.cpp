@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/rig/limbs.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +9,7 @@
 #include <queue>
 #include <utility>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/union_find.h>
 
 namespace sinew {
@@ -315,10 +315,10 @@ Vec3 longest_axis(const Points& points, const Vec3& middle) {
   constexpr double as_wide = 0.95;
   Mat3 spread = Mat3::Zero();
   for (const Vec3& p : points) spread += (p - middle) * (p - middle).transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat3> solved(spread);
+  const PrincipalAxes solved = principal_axes(spread);
   for (const int axis : {2, 0, 1})
-    if (spread(axis, axis) >= as_wide * solved.eigenvalues()[2]) return Vec3::Unit(axis);
-  return solved.eigenvectors().col(2);
+    if (spread(axis, axis) >= as_wide * solved.values[2]) return Vec3::Unit(axis);
+  return solved.axes.col(2);
 }
 
 }  // namespace

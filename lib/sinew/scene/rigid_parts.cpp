@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/rigid_parts.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <sinew/core/cell_grid.h>
+#include <sinew/core/decompositions.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
 #include <sinew/world/world.h>
@@ -42,7 +41,7 @@ double layers_around(const Body& body, const CellGrid& grid, std::size_t i) {
     ++count;
   });
   const Mat3 spread = squares / count - sum * sum.transpose() / (count * count);
-  const double least = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues()[0];
+  const double least = eigenvalues(spread)[0];
   return std::sqrt(12 * std::max(least, 0.0) / (layer_distance * layer_distance * r * r) + 1);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/study/convergence.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include <sinew/core/decompositions.h>
 
 namespace sinew {
 namespace {
@@ -45,12 +46,14 @@ SizeFit fitted(std::span<const Sample> samples, const std::vector<int>& powers) 
           std::pow(sample.size / samples.back().size, powers[static_cast<std::size_t>(k)]);
     values[i] = sample.value;
   }
-  const Eigen::VectorXd found = terms.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd found = least_squares(terms, values);
   const Eigen::Index free = rows - columns - 1;
   if (free == 0) return {found[0], 0, 0, free};
   const double variance = (terms * found - values).squaredNorm() / static_cast<double>(free);
-  const Eigen::MatrixXd inverse = (terms.transpose() * terms).inverse();
-  return {found[0], std::sqrt(variance), std::sqrt(variance * inverse(0, 0)), free};
+  // Row of A's pseudoinverse: what each value adds to found[0].
+  const Eigen::VectorXd unit = Eigen::VectorXd::Unit(columns + 1, 0);
+  const double per_variance = least_squares(terms.transpose(), unit).squaredNorm();
+  return {found[0], std::sqrt(variance), std::sqrt(variance * per_variance), free};
 }
 
 /// Student's t that 19 of 20 values do not exceed: Cornish and Fisher's series (Abramowitz and

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <sinew/core/json.h>
 #include <sinew/core/text.h>
 #include <sinew/io/frame_table.h>
 #include <sinew/study/compare_elements.h>
@@ -78,7 +79,7 @@ std::string reference_json(const ElementComparison& compared) {
             {"frames", Json::array()}};
   for (std::size_t k = 0; k < compared.frames.size(); ++k)
     file["frames"].push_back(json_of(compared, k));
-  return file.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(file, 2) + '\n';
 }
 
 }  // namespace sinew

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <sinew/core/file.h>
+#include <sinew/core/json.h>
 #include <sinew/core/text.h>
 #include <sinew/run/run_folder.h>
 
@@ -72,7 +73,7 @@ std::string study_json(const Study& study) {
                                {"limit", number(one.limit.value)},
                                {"error", number(one.limit.error)},
                                {"order", number(one.limit.order)}});
-  return file.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(file, 2) + '\n';
 }
 
 void write_study(const Study& study, const std::filesystem::path& out) {

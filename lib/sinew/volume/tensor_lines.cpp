@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/volume/tensor_lines.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/error.h>
 
 namespace sinew {
@@ -240,8 +240,8 @@ LargestPrincipal largest_principal(const SymmetricTensor& tensor) {
     return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitX()};
   Mat3 matrix;
   matrix << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(matrix);
-  return {solver.eigenvalues()[2], solver.eigenvectors().col(2)};
+  const auto [values, axes] = principal_axes(matrix);
+  return {values[2], axes.col(2)};
 }
 
 std::vector<TensorLine> tensor_lines(const Points& points, std::span<const Cell> cells,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/world/following_points.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <sinew/core/cell_grid.h>
+#include <sinew/core/decompositions.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 
@@ -84,12 +84,11 @@ class Finder {
 
 /// The inverse of the second moments, 0 along directions in which there are none.
 Mat3 inverse_of(const Mat3& moments) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(moments);
-  const Vec3& values = solver.eigenvalues();
+  const auto [values, axes] = principal_axes(moments);
   Mat3 inverse = Mat3::Zero();
   for (int k = 0; k < 3; ++k) {
     if (!(values[k] > flat * values[2])) continue;
-    const Vec3 axis = solver.eigenvectors().col(k);
+    const Vec3 axis = axes.col(k);
     inverse += axis * axis.transpose() / values[k];
   }
   return inverse;

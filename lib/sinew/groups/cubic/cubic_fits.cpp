@@ -2,8 +2,9 @@
 #include <sinew/groups/cubic/cubic_fits.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include <sinew/core/decompositions.h>
 
 namespace sinew {
 namespace {
@@ -26,16 +27,16 @@ FitFrame::FitFrame(const Points& places) {
   for (const Vec3& at : places) middle_ += at / n;
   Mat3 spread = Mat3::Zero();
   for (const Vec3& at : places) spread += (at - middle_) * (at - middle_).transpose() / n;
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
-  const double largest = axes.eigenvalues()[2];
+  const auto [values, axes] = principal_axes(spread);
+  const double largest = values[2];
   if (!(largest > 0)) return;
-  const Vec3 squares = axes.eigenvalues().cwiseMax(flattest * largest);
-  turn_ = squares.cwiseSqrt().cwiseInverse().asDiagonal() * axes.eigenvectors().transpose();
+  const Vec3 squares = values.cwiseMax(flattest * largest);
+  turn_ = squares.cwiseSqrt().cwiseInverse().asDiagonal() * axes.transpose();
 }
 
 bool tells_apart(const TermProducts& products) {
-  const Eigen::SelfAdjointEigenSolver<TermProducts> values(products, Eigen::EigenvaluesOnly);
-  return values.eigenvalues()[0] > min_apart * values.eigenvalues()[cubic_terms - 1];
+  const Eigen::VectorXd values = eigenvalues_of_symmetric(products);
+  return values[0] > min_apart * values[cubic_terms - 1];
 }
 
 void CubicSums::add(const Terms& terms, const Vec3& displacement, const Vec3& velocity) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/groups/cubic/quadrature.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <map>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/groups/cubic/cubic_fits.h>
 #include <sinew/groups/cubic/polynomials.h>
 
@@ -106,7 +106,7 @@ std::vector<double> weights_of(const Eigen::MatrixXd& samples, const Eigen::Vect
   Eigen::MatrixXd free = samples;
   for (int round = 0; round < max_fits; ++round) {
     const Eigen::VectorXd missing = all - samples * weights;
-    weights += free.completeOrthogonalDecomposition().solve(missing);
+    weights += least_squares(free, missing);
     bool any = false;
     for (Eigen::Index s = 0; s < weights.size(); ++s) {
       if (weights[s] >= min_weight * even) continue;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/groups/detail/group_limits.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include <sinew/body/body.h>
 #include <sinew/body/bond_factors.h>
 #include <sinew/body/solid.h>
+#include <sinew/core/decompositions.h>
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
@@ -117,10 +116,7 @@ Error unstable_group(const std::string& how, double stretch, const std::string& 
 }
 
 /// Returns the squares of the principal stretches, ascending.
-Vec3 squared_stretches(const Mat3& F) {
-  return Eigen::SelfAdjointEigenSolver<Mat3>(F.transpose() * F, Eigen::EigenvaluesOnly)
-      .eigenvalues();
-}
+Vec3 squared_stretches(const Mat3& F) { return eigenvalues(F.transpose() * F); }
 
 }  // namespace
 
@@ -254,7 +250,7 @@ PieceNow GroupLimits<Real>::piece_now(std::size_t piece, const Units& units) con
   const Vec3 half = (local.dx.cwiseAbs() * size / (2 * units.length)).array() + bends;
   const Vec3 more = half + Vec3::Constant(1e-6 * half.maxCoeff() + (sizeof(Real) == 4 ? 1 : 0));
   now.box = Box(Vec3(now.center - more), Vec3(now.center + more));
-  now.axes = Eigen::HouseholderQR<Mat3>(local.dx).householderQ();
+  now.axes = orthogonal_factor(local.dx);
   const Vec3 along =
       ((now.axes.transpose() * local.dx).cwiseAbs() * size / (2 * units.length)).array() + bends;
   const Vec3 own = along + (more - half);

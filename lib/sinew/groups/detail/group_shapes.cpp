@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/groups/detail/group_shapes.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cstdint>
 
 #include <sinew/body/body.h>
 #include <sinew/body/grouping.h>
+#include <sinew/core/decompositions.h>
 #include <sinew/core/parallel.h>
 
 namespace sinew {
@@ -31,8 +31,7 @@ void find_frames(const Body& body, std::vector<GroupShape>& shapes) {
     spread[g] += (X - shapes[g].center) * (X - shapes[g].center).transpose();
   });
   for (std::size_t g = 0; g < shapes.size(); ++g)
-    shapes[g].frame =
-        Eigen::SelfAdjointEigenSolver<Mat3>(spread[g] / shapes[g].size).operatorInverseSqrt();
+    shapes[g].frame = inverse_root(spread[g] / shapes[g].size);
   for_each([&](std::size_t g, const Vec3& X) {
     shapes[g].reach = shapes[g].reach.cwiseMax(shapes[g].place_of(X).cwiseAbs());
   });

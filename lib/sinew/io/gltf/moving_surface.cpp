@@ -226,7 +226,7 @@ void put_into(OrderedJson& json, const GltfMaterials& materials, Contents& conte
   for (const std::string& image : materials.images)
     views.push_back(contents.add_view(image.size()));
   if (materials.json.empty()) return;
-  OrderedJson own = OrderedJson::parse(materials.json);
+  OrderedJson own = parsed_json<OrderedJson>(materials.json);
   if (own.contains("images"))
     for (OrderedJson& image : own["images"])
       if (image.is_object() && image.contains("bufferView"))

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/gltf/node_tree.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <optional>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/detail/accessors.h>
 
@@ -235,13 +235,13 @@ std::vector<Affine> global_places(const GltfTree& tree, const std::vector<Affine
 
 double even_scale(const Mat3& matrix, double tolerance) {
   if (!matrix.allFinite() || !(matrix.determinant() > 0)) return 0;
-  const Vec3 scales = Eigen::JacobiSVD<Mat3>(matrix).singularValues();  // the largest first
+  const Vec3 scales = singular_values(matrix).values;
   return scales[2] >= (1 - tolerance) * scales[0] ? std::cbrt(scales.prod()) : 0;
 }
 
 Mat3 nearest_rotation(const Mat3& matrix) {
-  const Eigen::JacobiSVD<Mat3> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Mat3 rotation = svd.matrixU() * svd.matrixV().transpose();
+  const auto [U, sizes, V] = singular_values(matrix);
+  const Mat3 rotation = U * V.transpose();
   return rotation.determinant() < 0 ? Mat3(-rotation) : rotation;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include <sinew/core/json.h>
 #include <sinew/metrics/markup.h>
 #include <sinew/metrics/summary.h>
 
@@ -215,7 +216,7 @@ std::string page_json(const PageData& data) {
     json["worst"].push_back({{"metric", metric}, {"frame", frame}, {"time", time}});
   if (!data.machine.empty()) json["machine"] = machine_json(data.machine);
   json["angles"] = has_bend(data.angles) ? points_of(data.times, data.angles) : Json::array();
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::vector<WorstFrame> worst_frames(std::span<const FrameMetrics> frames, const Summary& worst) {

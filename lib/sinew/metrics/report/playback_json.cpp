@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <sinew/core/base64.h>
+#include <sinew/core/json.h>
 #include <sinew/metrics/report/playback.h>
 
 namespace sinew {
@@ -179,7 +180,7 @@ std::string playback_json(const Playback& playback) {
                      {"obstacles", obstacles_of(playback, cube)},
                      {"percentiles", {100 * outside, 100 * (1 - outside)}},
                      {"fields", fields_of(playback)}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace sinew

@@ -31,25 +31,33 @@ struct Step {
   }
 };
 
-using Queue = std::priority_queue<Step>;
-
-void begin_at(const InsidePaths& paths, const Skeleton& skeleton, int bone, Queue& queue) {
+void begin_at(const InsidePaths& paths, const Skeleton& skeleton, int bone,
+              std::vector<Step>& starts) {
   for (const std::uint32_t i : paths.starts[bone])
-    queue.push({distance_to(skeleton.bones[bone], paths.points[i]), bone, i});
+    starts.push_back({distance_to(skeleton.bones[bone], paths.points[i]), bone, i});
 }
 
 /// Dijkstra's algorithm; paths end at `limit` (m).
-std::vector<BoneDistance> walk(const InsidePaths& paths, Queue queue, double limit) {
+std::vector<BoneDistance> walk(const InsidePaths& paths, const std::vector<Step>& starts,
+                               double limit) {
   std::vector<BoneDistance> found(paths.points.size(), {no_bone, unreached});
+  std::vector<bool> reached(paths.points.size());
+  std::priority_queue<Step> queue;
+  const auto offer = [&](std::uint32_t i, int bone, double distance) {
+    BoneDistance& best = found[i];
+    if (distance > limit || std::tie(distance, bone) >= std::tie(best.distance, best.bone)) return;
+    best = {bone, distance};
+    queue.push({distance, bone, i});
+  };
+  for (const Step& one : starts) offer(one.particle, one.bone, one.distance);
   while (!queue.empty()) {
     const Step step = queue.top();
     queue.pop();
-    if (found[step.particle].bone != no_bone || step.distance > limit) continue;
-    found[step.particle] = {step.bone, step.distance};
+    if (reached[step.particle]) continue;
+    reached[step.particle] = true;
     for (const std::uint32_t j : paths.links.of(step.particle))
-      if (found[j].bone == no_bone)
-        queue.push(
-            {step.distance + (paths.points[j] - paths.points[step.particle]).norm(), step.bone, j});
+      if (!reached[j])
+        offer(j, step.bone, step.distance + (paths.points[j] - paths.points[step.particle]).norm());
   }
   return found;
 }
@@ -88,9 +96,9 @@ BoneDistance without_lattice(const InsidePaths& paths, const Skeleton& skeleton,
 /// Paths from one bone, up to `limit` (m).
 std::vector<BoneDistance> paths_from(const InsidePaths& paths, const Skeleton& skeleton, int bone,
                                      double limit) {
-  Queue queue;
-  begin_at(paths, skeleton, bone, queue);
-  return walk(paths, std::move(queue), limit);
+  std::vector<Step> starts;
+  begin_at(paths, skeleton, bone, starts);
+  return walk(paths, starts, limit);
 }
 
 }  // namespace
@@ -126,10 +134,10 @@ InsidePaths inside_paths(const Points& rest, const Skeleton& skeleton, double ra
 
 std::vector<std::vector<BoneDistance>> near_inside(const InsidePaths& paths,
                                                    const Skeleton& skeleton, double reach) {
-  Queue queue;
+  std::vector<Step> starts;
   for (std::size_t b = 0; b < skeleton.size(); ++b)
-    begin_at(paths, skeleton, static_cast<int>(b), queue);
-  const std::vector<BoneDistance> nearest = walk(paths, std::move(queue), unreached);
+    begin_at(paths, skeleton, static_cast<int>(b), starts);
+  const std::vector<BoneDistance> nearest = walk(paths, starts, unreached);
   const auto limit = [&](double path) { return detour_of_lattice * (path + reach); };
   double longest = 0;
   for (const BoneDistance& one : nearest)

@@ -7,6 +7,7 @@
 
 #include <sinew/core/base64.h>
 #include <sinew/core/file.h>
+#include <sinew/core/json.h>
 #include <sinew/io/gltf/detail/container.h>
 
 namespace sinew {
@@ -113,7 +114,7 @@ const char* gltf_image_type(std::string_view bytes) {
 
 int add_material(GltfMaterials& materials, const SurfaceLook::Material& material) {
   OrderedJson json =
-      materials.json.empty() ? OrderedJson::object() : OrderedJson::parse(materials.json);
+      materials.json.empty() ? OrderedJson::object() : parsed_json<OrderedJson>(materials.json);
   const auto& [red, green, blue] = material.color;
   OrderedJson surface = {{"baseColorFactor", {red, green, blue, material.opacity}},
                          {"metallicFactor", 0}};
@@ -123,13 +124,13 @@ int add_material(GltfMaterials& materials, const SurfaceLook::Material& material
   OrderedJson added = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
   if (material.opacity < 1) added["alphaMode"] = "BLEND";
   json["materials"].push_back(std::move(added));
-  materials.json = json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  materials.json = json_text(json);
   return static_cast<int>(json["materials"].size()) - 1;
 }
 
 GltfMaterials gltf_materials(const std::filesystem::path& path, const CheckedGltf& gltf) {
   const GltfContainer container = gltf_container(read_gltf_file(path), path.extension());
-  const OrderedJson file = OrderedJson::parse(container.json, nullptr, false);
+  const OrderedJson file = parsed_json<OrderedJson>(container.json);
   if (!file.is_object() || !file.contains("materials") || !file["materials"].is_array() ||
       file["materials"].empty())
     return {};
@@ -141,14 +142,14 @@ GltfMaterials gltf_materials(const std::filesystem::path& path, const CheckedGlt
       json["extensionsUsed"] = std::move(kept);
   GltfMaterials materials;
   take_images(json, path.parent_path(), gltf, materials.images);
-  materials.json = json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  materials.json = json_text(json);
   return materials;
 }
 
 std::vector<std::string> names_of(const GltfMaterials& materials) {
   if (materials.json.empty()) return {};
   std::vector<std::string> names;
-  const OrderedJson json = OrderedJson::parse(materials.json);
+  const OrderedJson json = parsed_json<OrderedJson>(materials.json);
   for (const OrderedJson& material : json["materials"]) {
     std::string name = text_of(material, "name").value_or("");
     if (name.empty()) name = "material_" + std::to_string(names.size());

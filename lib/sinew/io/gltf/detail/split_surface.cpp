@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include <sinew/core/decompositions.h>
+
 namespace sinew {
 namespace {
 
@@ -139,7 +141,7 @@ std::vector<float> MovedNormals::at(const std::vector<float>& places) const {
   for (std::size_t i = 0; i < normals.size(); ++i) {
     if (given_[i].isZero(0)) continue;
     const bool turns = !normals[i].isZero(0) && !at_rest_[i].isZero(0);
-    normals[i] = turns ? Quat::FromTwoVectors(at_rest_[i], normals[i]) * given_[i] : given_[i];
+    normals[i] = turns ? shortest_rotation(at_rest_[i], normals[i]) * given_[i] : given_[i];
   }
   std::vector<float> out;
   out.reserve(3 * surface_.smooth.size());
