@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-check: the resources a run would need, and doubtful settings of its scene.
+
+#include <optional>
+
 #include <sinew/inspection/check.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
 #include <sinew/settings/read_scene.h>
 #include "command/command.h"
 #include "command/drawing.h"
+#include "command/progress.h"
 #include "command/results.h"
 #if SINEW_DRAWS
 #include <sinew/display/display.h>
@@ -48,8 +52,11 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
     refuse_output(picture, {scene}, ".png");
     prepare_to_draw();
   }
+  std::optional<Waiting> waiting(std::in_place, "preparing", progress_style(common.quiet));
   const Prepared prepared = prepare({read_scene(scene, common.overrides)});
+  waiting.emplace("trying steps and modes", progress_style(common.quiet));
   const SceneCheck check = check_scene(prepared, run_folder(scene, "").path);
+  waiting.reset();
   Results results;
   results.add(check.findings);
   if (!picture.empty()) add_pictures(prepared, check.meeting, picture, results);

@@ -10,6 +10,7 @@
 #include <sinew/scene/new/new_scene.h>
 #include <sinew/scene/rig.h>
 #include "command/command.h"
+#include "command/progress.h"
 #include "command/results.h"
 
 namespace {
@@ -71,7 +72,10 @@ Exit make(Options options, const Common& common) {
     options.wish.body = solid_of(options);
     options.wish.mesh = options.shape;
   }
-  const WrittenScene written = write_new_scene(options.wish);
+  const WrittenScene written = [&] {
+    const Waiting waiting("looking at the mesh", progress_style(common.quiet));
+    return write_new_scene(options.wish);
+  }();
   const NewScene& scene = written.scene;
   Results results;
   results.add("scene", written.path);

@@ -250,6 +250,19 @@ TEST(Progress, OfALongStageTellsTheTimeLeft) {
   EXPECT_EQ(content(file), "\rmeasuring 50 %  0:02 left\rmeasuring 100 %          \n");
 }
 
+TEST(Progress, OfWhatCannotBeForetoldCountsSeconds) {
+  const TempFolder folder;
+  const auto file = folder.path() / "err";
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  { const Waiting short_one("looking", ProgressStyle::rewritten, out); }
+  {
+    const Waiting waiting("looking", ProgressStyle::rewritten, out);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  }
+  std::fclose(out);
+  EXPECT_TRUE(content(file).starts_with("\rlooking  1 s")) << content(file);
+}
+
 TEST(Tables, SettingsAreMarkdown) {
   const Ran ran = run(std::string(TABLES) + " settings");
   EXPECT_EQ(ran.exit, 0);

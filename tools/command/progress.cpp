@@ -53,6 +53,31 @@ void StageProgress::at(std::size_t done, std::size_t of) {
     line_.add(line), reported_ = now;
 }
 
+Waiting::Waiting(std::string stage, ProgressStyle style, std::FILE* out)
+    : stage_(std::move(stage)), line_(style, out) {
+  if (style != ProgressStyle::none)
+    teller_ = std::thread([this] { tell(std::unique_lock(mutex_)); });
+}
+
+Waiting::~Waiting() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  changed_.notify_one();
+  if (teller_.joinable()) teller_.join();
+}
+
+void Waiting::tell(std::unique_lock<std::mutex> lock) {
+  const bool rewrites = line_.style() == ProgressStyle::rewritten;
+  const std::chrono::seconds pause = rewrites ? std::chrono::seconds(1) : between;
+  for (auto waited = pause; !changed_.wait_for(lock, pause, [this] { return over_; });
+       waited += pause) {
+    const std::string line = fmt::format("{}  {} s", stage_, waited.count());
+    rewrites ? line_.rewrite(line, false) : line_.add(line);
+  }
+}
+
 Progress::Progress(int frames, ProgressStyle style, std::FILE* out)
     : frames_(frames), line_(style, out) {}
 

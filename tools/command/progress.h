@@ -6,9 +6,12 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <cstdio>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "command/terminal.h"
@@ -40,6 +43,27 @@ class StageProgress {
   std::string stage_;
   ProgressLine line_;
   Clock::time_point start_ = Clock::now(), reported_ = start_;
+};
+
+/// A stage whose end cannot be foretold, while this lives: "looking at the mesh  3 s". Appears as
+/// the progress of other stages does.
+class Waiting {
+ public:
+  /// `out` is for tests.
+  Waiting(std::string stage, ProgressStyle style, std::FILE* out = stderr);
+  ~Waiting();
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+ private:
+  void tell(std::unique_lock<std::mutex> lock);
+
+  std::string stage_;
+  ProgressLine line_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool over_ = false;
+  std::thread teller_;
 };
 
 class Progress {
