@@ -53,7 +53,7 @@ Eigen::VectorXd eigenvalues_of_symmetric(const Eigen::MatrixXd& symmetric) {
 
 Eigen::VectorXcd eigenvalues_of_any(const Eigen::MatrixXd& square) { return square.eigenvalues(); }
 
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+Eigen::VectorXd best_fit(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return A.completeOrthogonalDecomposition().solve(b);
 }
 

@@ -23,7 +23,8 @@ PrincipalAxes principal_axes(const Mat3& symmetric);
 /// The values of principal_axes alone, bit for bit.
 Vec3 eigenvalues(const Mat3& symmetric);
 
-/// By a closed form: faster, but where two are equal exact to the root of the precision only.
+/// The same by a closed form: faster, but where two are equal exact to the root of the precision
+/// only.
 Vec3 eigenvalues_in_closed_form(const Mat3& symmetric);
 
 /// The symmetric matrix whose square is the inverse; all eigenvalues must be positive.
@@ -61,6 +62,6 @@ Eigen::VectorXd eigenvalues_of_symmetric(const Eigen::MatrixXd& symmetric);
 Eigen::VectorXcd eigenvalues_of_any(const Eigen::MatrixXd& square);
 
 /// The shortest x of those that minimize |A x - b|.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+Eigen::VectorXd best_fit(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 }  // namespace sinew

@@ -199,6 +199,7 @@ std::vector<Intrusion> intrusions(const Body& body, const Motion& motion,
     }
   }
   std::vector<Intrusion> all;
+  all.reserve(found.size());
   for (const auto& [bones, one] : found) all.push_back(one);
   std::stable_sort(all.begin(), all.end(),
                    [](const Intrusion& a, const Intrusion& b) { return a.depth > b.depth; });

@@ -46,13 +46,13 @@ SizeFit fitted(std::span<const Sample> samples, const std::vector<int>& powers) 
           std::pow(sample.size / samples.back().size, powers[static_cast<std::size_t>(k)]);
     values[i] = sample.value;
   }
-  const Eigen::VectorXd found = least_squares(terms, values);
+  const Eigen::VectorXd found = best_fit(terms, values);
   const Eigen::Index free = rows - columns - 1;
   if (free == 0) return {found[0], 0, 0, free};
   const double variance = (terms * found - values).squaredNorm() / static_cast<double>(free);
   // Row of A's pseudoinverse: what each value adds to found[0].
   const Eigen::VectorXd unit = Eigen::VectorXd::Unit(columns + 1, 0);
-  const double per_variance = least_squares(terms.transpose(), unit).squaredNorm();
+  const double per_variance = best_fit(terms.transpose(), unit).squaredNorm();
   return {found[0], std::sqrt(variance), std::sqrt(variance * per_variance), free};
 }
 

@@ -106,7 +106,7 @@ std::vector<double> weights_of(const Eigen::MatrixXd& samples, const Eigen::Vect
   Eigen::MatrixXd free = samples;
   for (int round = 0; round < max_fits; ++round) {
     const Eigen::VectorXd missing = all - samples * weights;
-    weights += least_squares(free, missing);
+    weights += best_fit(free, missing);
     bool any = false;
     for (Eigen::Index s = 0; s < weights.size(); ++s) {
       if (weights[s] >= min_weight * even) continue;
