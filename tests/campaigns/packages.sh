@@ -14,7 +14,7 @@ cp "$packages"/*.deb "$root/packages/"
 
 in_root apt-get -qq install -y --no-install-recommends man-db bash-completion zsh >/dev/null
 rm -f "$root/etc/dpkg/dpkg.cfg.d/"*  # minimal images leave manuals out
-in_root find / -xdev -name '*sinew*' -not -path '/packages/*' > "$root/before"
+in_root find / -xdev -name '*sinew*' -not -path '/packages/*' -not -path '/var/cache/man/*' > "$root/before"
 in_root dpkg -l | awk '{print $2}' > "$root/had"
 start=$SECONDS
 in_root sh -c 'apt-get -qq install -y --no-install-recommends ffmpeg /packages/sinew_*.deb /packages/python3-sinew_*.deb >/dev/null'
@@ -37,7 +37,7 @@ import sinew
 body = sinew.fill("/usr/share/sinew/data/meshes/box.obj", count=1000)
 print(len(body), "particles by Python")'
 in_root sh -c 'apt-get -qq purge -y sinew python3-sinew >/dev/null && apt-get -qq autoremove -y >/dev/null'
-in_root find / -xdev -name '*sinew*' -not -path '/packages/*' -not -path '/root/*' > "$root/after"
+in_root find / -xdev -name '*sinew*' -not -path '/packages/*' -not -path '/var/cache/man/*' -not -path '/root/*' > "$root/after"
 diff "$root/before" "$root/after"
 echo "removed without a trace"
 
@@ -59,6 +59,6 @@ in_root sh -c 'apt-get -qq install -y /packages/*.deb >/dev/null'
 in_root dpkg-query -W -f '${Package} ${Version} ${Status}\n' sinew libsinew-dev python3-sinew sinew-paraview
 in_root sh -c 'cd /root && sinew --version && python3 -c "import sinew"'
 in_root sh -c 'apt-get -qq purge -y "*sinew*" >/dev/null && apt-get -qq autoremove -y >/dev/null'
-in_root find / -xdev -name '*sinew*' -not -path '/packages/*' -not -path '/older/*' -not -path '/root/*' > "$root/after"
+in_root find / -xdev -name '*sinew*' -not -path '/packages/*' -not -path '/var/cache/man/*' -not -path '/older/*' -not -path '/root/*' > "$root/after"
 diff "$root/before" "$root/after"
 echo "all packages install together, over older ones, and leave without a trace"
