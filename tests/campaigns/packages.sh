@@ -54,6 +54,7 @@ for package in "$root"/packages/*.deb; do
   dpkg-deb -b "$root/unpacked" "$root/older/$(basename "$package")" >/dev/null
   rm -rf "$root/unpacked"
 done
+in_root sh -c 'apt-get -qq purge -y libsinew-dev >/dev/null'  # the present version
 in_root sh -c 'apt-get -qq install -y /older/*.deb >/dev/null'
 in_root sh -c 'apt-get -qq install -y /packages/*.deb >/dev/null'
 in_root dpkg-query -W -f '${Package} ${Version} ${Status}\n' sinew libsinew-dev python3-sinew sinew-paraview
