@@ -135,7 +135,9 @@ inline Particles particles_of(const Settings& settings, const Points& rest) {
 }
 
 inline Body make_body(const Settings& settings, const Points& rest) {
-  return make_body(settings, {}, skeleton_of(settings), particles_of(settings, rest));
+  Body body = make_body(settings, {}, skeleton_of(settings), particles_of(settings, rest));
+  set_damping_ratio(settings, body);
+  return body;
 }
 
 /// The scene with particles at `rest` in place of a mesh.

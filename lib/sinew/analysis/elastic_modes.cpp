@@ -5,14 +5,17 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include <sinew/analysis/detail/free_body.h>
+#include <sinew/analysis/detail/held_body.h>
 #include <sinew/analysis/detail/nearly_solved.h>
 #include <sinew/body/bond_factors.h>
 #include <sinew/core/decompositions.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/union_find.h>
+#include <sinew/world/world.h>
 
 namespace sinew {
 namespace {
@@ -27,6 +30,8 @@ constexpr double max_iterated = 200'000;             // particles: more take gig
 constexpr std::size_t min_bonds = 3;                 // fewer do not hold a particle
 constexpr int max_rounds = 60, order = 3;            // of the polynomials to begin with
 constexpr double converged = 1e-4;                   // of eigenvalues
+constexpr double free_motion = 1e-8;  // of the largest energy of a rigid motion: nothing holds it
+constexpr int max_bends = 8;
 constexpr double floppy = 1e-3;  // fraction of a smooth mode's w^2 below which one is no mode
 
 /// Returns the indices of the particles in the largest part that hangs together.
@@ -103,20 +108,22 @@ Matrix rigid_motions(const Points& rest) {
 /// the springs alone precondition.
 class ModeFinder {
  public:
-  ModeFinder(const Body& body, const Vector& mass)
-      : body_(body, mass), rigid_(orthonormal(rigid_motions(body.rest))) {}
+  ModeFinder(const Body& body, const Vector& mass, Holding holding)
+      : body_(body, mass, std::move(holding)),
+        rigid_(free_to_move(orthonormal(rigid_motions(body.rest)))) {}
 
   ElasticModes find() {
-    Matrix basis = orthonormal(without_rigid(polynomials(body_.body().rest)));
+    Matrix basis = orthonormal(elastic(polynomials(body_.body().rest)));
     if (basis.cols() == 0) return {};
     ritz(basis);
+    if (body_.held()) bend_where_held(basis);
     const double smooth = squared_[0];
     const NearlySolved solver(body_, 0.1 * smooth);
     if (!solver.sound()) return result();
     for (int round = 0; round < max_rounds; ++round) {
       const Vector before = squared_;
       const Matrix residual = stiffness_ - body_.with_mass(modes_) * squared_.asDiagonal();
-      const Matrix corrections = without_rigid(solver.solve(residual));
+      const Matrix corrections = elastic(solver.solve(residual));
       Matrix wider(modes_.rows(), modes_.cols() + corrections.cols());
       wider << modes_, corrections;
       ritz(orthonormal(wider));
@@ -132,6 +139,29 @@ class ModeFinder {
   }
 
  private:
+  /// Selects the rigid motions that nothing holds.
+  Matrix free_to_move(const Matrix& rigid) const {
+    if (!body_.held()) return rigid;
+    const auto [values, vectors] = eigendecomposition(body_.held_energy(rigid));
+    Eigen::Index free = 0;
+    while (free < values.size() && values[free] < free_motion * values.tail(1)[0]) ++free;
+    return rigid * vectors.leftCols(free);
+  }
+
+  /// Polynomials do not end where a body is held: their static answers do.
+  void bend_where_held(const Matrix& polynomial) {
+    for (int n = 0; n < max_bends; ++n) {
+      const double before = squared_[0];
+      const NearlySolved solver(body_, 0.1 * before);
+      if (!solver.sound()) return;
+      const Matrix responses = elastic(solver.solve(body_.with_mass(n == 0 ? polynomial : modes_)));
+      Matrix wider(responses.rows(), responses.cols() + modes_.cols());
+      wider << responses, modes_;
+      ritz(orthonormal(wider));
+      if (squared_[0] > 0.5 * before) return;
+    }
+  }
+
   /// With respect to the masses; what depends on others is left out.
   Matrix orthonormal(const Matrix& from) const {
     const Matrix even = of_norm_1(from);
@@ -151,7 +181,11 @@ class ModeFinder {
     return from * norms(from).cwiseInverse().asDiagonal();
   }
 
-  /// Without the columns that are nothing else.
+  /// What neither is held nor moves as a whole; without the columns that are nothing else.
+  Matrix elastic(const Matrix& from) const {
+    return without_rigid(body_.held() ? body_.free_part(from) : from);
+  }
+
   Matrix without_rigid(const Matrix& from) const {
     Matrix left = of_norm_1(from);
     for (int twice = 0; twice < 2; ++twice)
@@ -168,7 +202,7 @@ class ModeFinder {
   void widen(const NearlySolved& solver) {
     Matrix wider = modes_, answer = modes_.col(0);
     for (Eigen::Index n = 0; n < answers; ++n) {
-      answer = without_rigid(solver.solve_well(body_.damping(answer)));
+      answer = elastic(solver.solve_well(body_.damping(answer)));
       if (answer.cols() == 0) break;
       wider.conservativeResize(Eigen::NoChange, wider.cols() + 1);
       wider.rightCols(1) = answer;
@@ -196,9 +230,12 @@ class ModeFinder {
     modes_ = modes_.rightCols(count).eval();
   }
 
-  ElasticModes result() { return {squared_, modes_.transpose() * body_.damping(modes_)}; }
+  ElasticModes result() {
+    return {squared_, modes_.transpose() * body_.damping(modes_),
+            modes_.transpose() * body_.damping_of_bones(modes_)};
+  }
 
-  FreeBody body_;
+  HeldBody body_;
   Matrix rigid_;
   Matrix modes_, stiffness_;  ///< u and K u
   Vector squared_;
@@ -206,8 +243,9 @@ class ModeFinder {
 
 /// Finds the modes of a body small enough; masses in proportion to the volume shares, or all the
 /// same.
-ElasticModes modes_of(const Body& whole, bool by_volume) {
-  const Body body = part_of(whole, largest_part(whole));
+ElasticModes modes_of(const Body& whole, const Holding& holding, bool by_volume) {
+  const std::vector<std::size_t> places = largest_part(whole);
+  const Body body = part_of(whole, places);
   const auto n = static_cast<Eigen::Index>(body.rest.size());
   if (n < 2) return {};
   Vector mass(3 * n);
@@ -218,13 +256,15 @@ ElasticModes modes_of(const Body& whole, bool by_volume) {
         mass_of(body, static_cast<std::size_t>(i), body.material.mass) *
         (by_volume ? body.volume_share[static_cast<std::size_t>(i)] * static_cast<double>(n) / sum
                    : 1));
-  return ModeFinder(body, mass).find();
+  return ModeFinder(body, mass, holding.part(places)).find();
 }
 
 /// The modes of a packing `times` as coarse, with rates as of the body.
 ElasticModes coarse_modes(const Body& body, int times) {
   const Body coarse = coarse_body(body, times);
-  ElasticModes modes = modes_of(coarse, true);
+  const Holding holding =
+      spread_onto(coarse.rest, 2 * coarse.material.pair.r, body.rest, holding_of(body));
+  ElasticModes modes = modes_of(coarse, holding, true);
   const double finer = body.material.pair.r / coarse.material.pair.r;
   modes.rates *= finer * finer * static_cast<double>(body.rest.size()) /
                  static_cast<double>(coarse.rest.size());
@@ -278,20 +318,19 @@ double layers_across(const Body& body) {
 
 double ElasticModes::frequency() const { return empty() ? 0 : std::sqrt(squared[0]); }
 
-double ElasticModes::damping_ratio(double damping) const {
-  if (empty() || damping <= 0) return 0;
+double ElasticModes::ratio_of(const Matrix& damping) const {
+  if (empty() || !(damping(0, 0) > 0)) return 0;
   const Eigen::Index n = squared.size();
   Matrix first_order = Matrix::Zero(2 * n, 2 * n);
   first_order.topRightCorner(n, n).setIdentity();
   first_order.bottomLeftCorner(n, n) = -Matrix(squared.asDiagonal());
   std::complex<double> at(0, frequency());
   // Followed in steps from where it is damped little.
-  const double begin = std::min(damping, 0.02 * frequency() / std::max(rates(0, 0), 1e-300));
-  const int steps = 1 + static_cast<int>(std::ceil(std::log(damping / begin) / std::log(1.15)));
+  const double begin = std::min(1.0, 0.02 * frequency() / damping(0, 0));
+  const int steps = 1 + static_cast<int>(std::ceil(std::log(1 / begin) / std::log(1.15)));
   for (int step = 0; step < steps; ++step) {
-    const double now =
-        steps == 1 ? damping : begin * std::pow(damping / begin, step / (steps - 1.0));
-    first_order.bottomRightCorner(n, n) = -now * rates;
+    const double share = steps == 1 ? 1 : begin * std::pow(1 / begin, step / (steps - 1.0));
+    first_order.bottomRightCorner(n, n) = -share * damping;
     const Eigen::VectorXcd values = eigenvalues_of_any(first_order);
     std::complex<double> nearest = values[0];
     for (const std::complex<double>& value : values)
@@ -301,17 +340,44 @@ double ElasticModes::damping_ratio(double damping) const {
   return -at.real() / std::abs(at);
 }
 
-double ElasticModes::damping_for(double ratio) const {
-  constexpr double max_followed = 0.9;  // beyond, in proportion
-  if (empty() || !(ratio > 0) || !(rates(0, 0) > 0)) return 0;
-  const double wanted = std::min(ratio, max_followed);
-  double low = 0, high = 2 * wanted * frequency() / rates(0, 0);
-  for (int n = 0; n < 20 && damping_ratio(high) < wanted; ++n) low = high, high *= 1.5;
+double ElasticModes::damping_ratio(double damping, double rate) const {
+  if (empty()) return 0;
+  return ratio_of(damping * rates + rates_of_bones +
+                  rate * Matrix::Identity(squared.size(), squared.size()));
+}
+
+namespace {
+
+constexpr double max_followed = 0.9;  // ratios beyond are in proportion
+
+/// Where a ratio that grows from 0 reaches `wanted`; `first`: where it might.
+template <class Ratio>
+double reached(double wanted, double first, Ratio ratio) {
+  double low = 0, high = first;
+  for (int n = 0; n < 20 && ratio(high) < wanted; ++n) low = high, high *= 1.5;
   for (int n = 0; n < 40; ++n) {
     const double middle = (low + high) / 2;
-    (damping_ratio(middle) < wanted ? low : high) = middle;
+    (ratio(middle) < wanted ? low : high) = middle;
   }
-  return high * ratio / wanted;
+  return high;
+}
+
+}  // namespace
+
+double ElasticModes::damping_for(double ratio) const {
+  if (empty() || !(ratio > 0) || !(rates(0, 0) > 0)) return 0;
+  const double wanted = std::min(ratio, max_followed);
+  if (damping_ratio(0) >= wanted) return 0;
+  const double first = 2 * wanted * frequency() / rates(0, 0);
+  return ratio / wanted * reached(wanted, first, [&](double C) { return damping_ratio(C); });
+}
+
+double ElasticModes::rate_for(double ratio, double damping) const {
+  const double wanted = std::min(ratio, max_followed);
+  if (empty() || !(ratio > 0) || damping_ratio(damping) >= wanted) return 0;
+  return ratio / wanted * reached(wanted, 2 * wanted * frequency(), [&](double rate) {
+           return damping_ratio(damping, rate);
+         });
 }
 
 ElasticModes elastic_modes(const Body& body) {
@@ -321,7 +387,21 @@ ElasticModes elastic_modes(const Body& body) {
   if (times > 1)
     times = static_cast<int>(std::clamp(layers_across(body) / min_layers, 1.0, 1.0 * times));
   if (count / std::pow(times, 3) > max_iterated) return {};
-  return times == 1 ? modes_of(body, false) : coarse_modes(body, times);
+  return times == 1 ? modes_of(body, holding_of(body), false) : coarse_modes(body, times);
+}
+
+std::string held_by(const Body& body) {
+  bool pins = false, supports = false, bones = false;
+  if (body.world)
+    for (const Pinned& pin : body.world->pins)
+      (pin.is_pin() && !pin.is_oblique() ? pins : supports) = true;
+  for (const Influence& by : body.binding.influences)
+    bones = bones || body.springs[static_cast<std::size_t>(by.bone)].stiffest() > 0;
+  std::string all;
+  for (const auto& [holds, name] :
+       {std::pair(bones, "bones"), {pins, "pins"}, {supports, "supports"}})
+    if (holds) all += (all.empty() ? "" : " and ") + std::string(name);
+  return all.empty() ? "nothing" : all;
 }
 
 }  // namespace sinew

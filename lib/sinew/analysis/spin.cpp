@@ -32,7 +32,7 @@ Vec3 center_of_mass(const Body& body) {
 double spin_time(const Body& body) {
   const Material& material = body.material;
   constexpr double never = std::numeric_limits<double>::infinity();
-  if (material.damping_form == DampingForm::central || !(material.damping > 0)) return never;
+  if (acts_along_pairs(material.damping_form) || !(material.damping > 0)) return never;
   const SharedNeighbors shared = neighbors_of(body);
   const NeighborLists& near = shared->nearest;  // second ones do not count in eq. 2
   const Vec3 center = center_of_mass(body);

@@ -19,7 +19,7 @@ namespace sinew {
 
 namespace {
 
-bool is_central(const Material& material) { return material.damping_form == DampingForm::central; }
+bool is_central(const Material& material) { return acts_along_pairs(material.damping_form); }
 
 /// A kind of mode that may become unstable first: decay rate by eq. 2, and squared frequency.
 struct Mode {

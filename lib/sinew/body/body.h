@@ -12,6 +12,7 @@
 #include <sinew/body/bond_factors.h>
 #include <sinew/body/bone_force.h>
 #include <sinew/body/pass_through.h>
+#include <sinew/body/rigid_damping.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/rest_neighbors.h>
 #include <sinew/material/local_strength.h>
@@ -45,6 +46,7 @@ struct Body {
   SharedNeighbors neighbors = {};
   std::shared_ptr<const World> world = {};        ///< none: nothing surrounds it
   std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
+  std::shared_ptr<const RigidDamping> rigid_damping = {};  ///< none: there is none
 };
 
 /// Particles nearer than this at rest, m, act on each other whatever bones hold them.

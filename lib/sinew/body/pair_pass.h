@@ -63,7 +63,7 @@ double sum_over_particles(std::size_t particles, Value&& value) {
 template <class ForEachPartner>
 void pairwise_damping(const Particles& particles, const Material& material,
                       const ForEachPartner& for_each_partner, Forces& forces) {
-  const bool central = material.damping_form == DampingForm::central;
+  const bool central = acts_along_pairs(material.damping_form);
   for_each_particle(particles.size(), [&](std::size_t i) {
     Vec3 sum = Vec3::Zero();
     for_each_partner(i, [&](std::uint32_t j, const Vec3& offset, double d, double) {

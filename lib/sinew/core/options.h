@@ -86,7 +86,11 @@ constexpr bool keeps_volume(MaterialModel model) {
 
 enum class MaterialPresetName { none, fat, muscle, skin, silicone, rubber_foam, clay };
 enum class Cohesion { all, initial_neighbors };
-enum class DampingForm { paper, symmetric, central };
+enum class DampingForm { paper, symmetric, central, rigid };
+/// Whether eq. 2 acts along the pairs alone.
+constexpr bool acts_along_pairs(DampingForm form) {
+  return form == DampingForm::central || form == DampingForm::rigid;
+}
 
 struct MaterialOptions {
   MaterialPresetName preset = MaterialPresetName::none;
@@ -104,7 +108,7 @@ struct MaterialOptions {
   double b = 2.6;
   double damping = 0.5;
   std::optional<double> damping_ratio;
-  std::optional<DampingForm> damping_form;  ///< by default central with bonds, else the paper's
+  std::optional<DampingForm> damping_form;  ///< by default rigid with bonds, else the paper's
   std::optional<double> breaking_strain;
   std::optional<double> fracture_energy;
   std::optional<double> yield_strain;

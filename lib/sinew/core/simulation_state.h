@@ -166,6 +166,10 @@ struct SimulationState {
   std::vector<double> sliding;              ///< three each
   /// Steps of each pressure, the places of its corners, m, and their motions in a step, m.
   std::vector<double> pressed = {};
+  // Where bonds have broken, which particles hang together: a label each, by id, and ends of bonds
+  // that had broken when they were found.
+  std::vector<std::uint32_t> pieces = {};
+  std::int64_t broken_ends = 0;
 };
 
 /// The saved state is not one of this stepper, or not valid.

@@ -20,6 +20,13 @@ using Points = std::vector<Vec3>;  // n x 3
 
 inline constexpr double pi = 3.14159265358979323846;
 
+/// The matrix of a cross product: cross_matrix(a) b = a x b.
+inline Mat3 cross_matrix(const Vec3& a) {
+  Mat3 matrix;
+  matrix << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return matrix;
+}
+
 inline double radians(double degrees) { return degrees * (pi / 180); }
 inline double degrees(double radians) { return radians * (180 / pi); }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include <sinew/analysis/elastic_modes.h>
 #include <sinew/analysis/spin.h>
@@ -78,15 +79,21 @@ void add_sizes(const Prepared& prepared, Findings& results) {
   results.add("mass", particles.mass * static_cast<double>(particles.size()), "kg");
 }
 
-/// How the body rings by itself.
-void add_modes(const Body& body, Findings& results) {
+/// How the body rings as it is held. `asked`: its damping ratio.
+void add_modes(const Body& body, std::optional<double> asked, Findings& results) {
   results.add("damping_constant", body.material.damping, "kg/s");
   // Bodies on bones are braked alike where these turn.
   if (const double time = spin_time(body); std::isfinite(time)) results.add("spin_time", time, "s");
   const ElasticModes modes = elastic_modes(body);
   if (modes.empty()) return;
   results.add("lowest_frequency", modes.frequency() / (2 * pi), "Hz");
-  results.add("damping_ratio", modes.damping_ratio(body.material.damping));
+  results.add("held_by", held_by(body));
+  const double rate = body.rigid_damping ? body.rigid_damping->rate : 0;
+  if (rate > 0) results.add("damping_rate", rate, "1/s");
+  const double ratio = modes.damping_ratio(body.material.damping, rate);
+  const bool more = asked && ratio > 1.02 * *asked && modes.damping_ratio(0) > *asked;
+  results.add("damping_ratio", ratio,
+              more ? "by binding.bone_damping, " + three_digits(*asked) + " asked" : "");
 }
 
 void add_material(const Material& material, Findings& results) {
@@ -290,7 +297,8 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
   add_sizes(prepared, results);
   add_material(prepared.body.material, results);
   add_rest(try_rest(prepared), results);
-  add_modes(prepared.body, results);
+  add_modes(prepared.body,
+            prepared.load_steps ? std::nullopt : prepared.settings.material.damping_ratio, results);
   add_planes(prepared.body, results);
   for (const ModelLimit& limit : model_limits(prepared))
     results.add(limit.key, limit.value, limit.text);

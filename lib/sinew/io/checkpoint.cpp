@@ -100,6 +100,8 @@ void serialize_state(Archive& archive, State& state) {
   archive("merging", state.regrouping.lost);
   archive("still", state.regrouping.still_since);
   archive("pressed", state.pressed);
+  archive("pieces", state.pieces);
+  archive("broken_ends", state.broken_ends);
   serialize_guard(archive, state);
 }
 

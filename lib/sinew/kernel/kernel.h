@@ -146,6 +146,24 @@ struct RigidMotion {
   Real velocity[3], spin[3];
 };
 
+/// What particles move with: velocity + gradient (x - center).
+template <class Real>
+struct AffineMotion {
+  Coord<Real> center[3];
+  Real velocity[3], gradient[9];  ///< row by row
+  Real of_bones;                  ///< 1: its power is the bones', 0: of what else drives the body
+};
+
+/// Damping of each particle relative to a mean of such motions.
+template <class Real>
+struct RigidDamping {
+  Real rate;                   ///< 0: there is none
+  const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
+  const Slot* slots;           ///< whose `bone` is a motion
+  const Real* weights;         ///< slots x block
+  const AffineMotion<Real>* motions;
+};
+
 /// Subpieces move on their own: particles of a piece that follow each other. A piece begins with
 /// one.
 template <class Real>
@@ -240,6 +258,7 @@ struct Step {
   const Lists* lists;  ///< by piece
   Subpieces<Real> subpieces;
   Bindings<Real> bindings;
+  RigidDamping<Real> rigid;
   Law<Real> law;
   std::uint8_t* careful;  ///< by vector: its pairs needed care in the last step; double precision
   Real* inverse_count;    ///< 1 / neighbors, or 0; of pairwise damping

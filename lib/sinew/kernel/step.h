@@ -10,6 +10,7 @@
 #include <sinew/kernel/changing_bonds.h>
 #include <sinew/kernel/fetching.h>
 #include <sinew/kernel/pairs.h>
+#include <sinew/kernel/rigid_damping.h>
 #include <sinew/kernel/strain.h>
 
 namespace sinew::kernel {
@@ -32,6 +33,7 @@ struct Forces {
   Triple<L> damping;
   BoneSums<L> bones;
   Triple<L> muscle = none<L>();
+  Braking<L> rigid = {};
   Triple<L> acceleration;
   bool strained = false;  ///< a bond creeps or breaks
 };
@@ -99,6 +101,10 @@ SINEW_INLINE Forces<L> forces_on(const Step<typename L::Real>& step, const LawOf
   forces.acceleration = forces.pairs.force + forces.damping +
                         (forces.bones.spring + forces.bones.damping) + all<L>(step.gravity);
   if (step.fibers.count > 0) forces.acceleration = forces.acceleration + forces.muscle;
+  if (step.rigid.rate > 0) {
+    forces.rigid = braking<L>(step, block, lane, here, velocity);
+    forces.acceleration = forces.acceleration + forces.rigid.force;
+  }
   if (is_loaded(step.loads, block))
     forces.acceleration = forces.acceleration + load<L>(step.loads.acceleration, i);
   if (step.mass != nullptr) {
@@ -167,9 +173,16 @@ template <class L>
 SINEW_INLINE void account(const Step<typename L::Real>& step, const Forces<L>& forces,
                           const Triple<L>& velocity, std::size_t block, int lane, Sums<L>& sums) {
   const Triple<L> middle = fused<L>(L::all(step.middle), forces.acceleration, velocity);
-  const typename L::V lost = forces.bones.damping_power - dot<L>(forces.bones.damping, middle) -
-                             dot<L>(forces.damping, middle);
-  add_to<L>(sums.power + lane, forces.bones.power);
+  typename L::V lost = forces.bones.damping_power - dot<L>(forces.bones.damping, middle) -
+                       dot<L>(forces.damping, middle);
+  typename L::V power = forces.bones.power;
+  if (step.rigid.rate > 0) {
+    const Braking<L>& rigid = forces.rigid;
+    lost = lost + (rigid.power - dot<L>(rigid.force, middle));
+    power = power + rigid.of_bones;
+    add_to<L>(sums.driven_power + lane, rigid.power - rigid.of_bones);
+  }
+  add_to<L>(sums.power + lane, power);
   add_to<L>(sums.lost + lane, lost);
   if (step.fibers.count > 0) add_to<L>(sums.driven_power + lane, dot<L>(forces.muscle, middle));
   if (is_loaded(step.loads, block)) {
@@ -289,7 +302,7 @@ SINEW_INLINE void probe_vector(const Step<typename L::Real>& step, const LawOf<L
   if (touched && step.surroundings.finding) return keep<L>(step, row_of<L>(block, lane), forces);
   const std::ptrdiff_t to = i - step.probed.first;
   store<L>(step.probed.pair, to, forces.pairs.force);
-  store<L>(step.probed.damping, to, forces.damping);
+  store<L>(step.probed.damping, to, forces.damping + forces.rigid.force);
   store<L>(step.probed.bone, to, forces.bones.spring + forces.bones.damping);
   if (step.probed.muscle[0] != nullptr) store<L>(step.probed.muscle, to, forces.muscle);
   typename L::Real count[L::width];

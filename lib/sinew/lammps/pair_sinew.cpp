@@ -152,7 +152,7 @@ void PairSinew::mean_damping(const Points& velocities) {
 /// With the mean of both counts, and central: only along the pair.
 void PairSinew::pairwise_damping() {
   const Material& material = body_->setup.material;
-  const bool central = material.damping_form == DampingForm::central;
+  const bool central = acts_along_pairs(material.damping_form);
   send(Sent::counts);
   for_each_meeting([&](const Meeting& pair) {
     if (!pair.partners) return;

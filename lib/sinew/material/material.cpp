@@ -135,7 +135,7 @@ Material make_material(const MaterialOptions& settings, const PackedBody& body) 
   material.order = order_of(body.packing);
   if (has_bonds(settings.model)) bond(settings, packing, material);
   material.damping_form = settings.damping_form.value_or(
-      has_bonds(settings.model) ? DampingForm::central : DampingForm::paper);
+      has_bonds(settings.model) ? DampingForm::rigid : DampingForm::paper);
   material.friction = settings.friction;
   material.damping = settings.damping * std::sqrt(pair.contact_stiffness() * body.mass);
   return material;

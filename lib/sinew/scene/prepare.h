@@ -45,10 +45,14 @@ struct LocalMaterial {
 };
 LocalMaterial local_material(const BodyFile& body);
 
-/// The particles on the bones, without a world. `law`: as Material::law. Errors name the scene's
-/// line.
+/// The particles on the bones, without a world and a damping ratio. `law`: as Material::law. Errors
+/// name the scene's line.
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
                const Particles& particles, LocalMaterial local = {}, const ForceLaw* law = nullptr);
+
+/// Gives a body that is held as it will be the damping ratio that the settings ask for, if they do:
+/// by eq. 2, and in the form rigid by damping relative to what holds it; bones may give more.
+void set_damping_ratio(const Settings& settings, Body& body);
 
 /// What is prepared.
 struct Scene {

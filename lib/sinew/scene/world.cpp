@@ -221,11 +221,12 @@ SceneWorld world_of(const Settings& settings, const SceneFiles& files, const Bod
 }
 
 WorldLoad load_of(const Body& body) {
-  if (!body.world) return {};
+  const double rate = body.rigid_damping ? body.rigid_damping->rate : 0;
+  if (!body.world) return {0, rate};
   Particles particle;
   particle.radius = body.material.pair.r;
   particle.mass = lightest(body).mass;
-  return {added_stiffness(*body.world, particle), added_damping(*body.world, particle)};
+  return {added_stiffness(*body.world, particle), added_damping(*body.world, particle) + rate};
 }
 
 }  // namespace sinew

@@ -150,10 +150,11 @@ std::vector<Field<Settings>> make_damping_and_strength() {
                "none"),
       choice<S>(
           "material", "damping_form", SINEW_AT(S, material.damping_form),
-          {"paper", "symmetric", "central"},
+          {"paper", "symmetric", "central", "rigid"},
           "paper: eq. 2, which brakes turning bodies; symmetric: conserves momentum; central: also "
-          "conserves angular momentum; auto: central for bonded models without hierarchy, else "
-          "paper"),
+          "conserves angular momentum; rigid: central, and what damping_ratio lacks is damping "
+          "relative to what holds the body, or to its motion as a rigid body, which takes no "
+          "shorter steps; auto: rigid for bonded models without hierarchy, else paper"),
       field<S>("material", "breaking_strain", SINEW_AT(S, material.breaking_strain), "",
                "strain at which a bond breaks, in bonded models", positive, "none"),
       field<S>("material", "fracture_energy", SINEW_AT(S, material.fracture_energy), "J/m^2",

@@ -8,6 +8,7 @@
 //     for (const StepSums& one : sums) ledger.add_step(one.power, one.lost);
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -81,7 +82,18 @@ struct WorldReactions {
   std::vector<Reaction> obstacles;        ///< of the body on each, about its frame
   std::vector<Reaction> pins;             ///< of the body on each bone through pins, about its head
   std::vector<Reaction> supports, loads;  ///< of each on the body, about its pivot
+
+  /// Adds those of damping relative to bones, which count as of pins, and supports.
+  void add(const WorldReactions& of_damping);
 };
+
+inline void WorldReactions::add(const WorldReactions& of_damping) {
+  for (const auto part : {&WorldReactions::pins, &WorldReactions::supports}) {
+    const std::vector<Reaction>& more = of_damping.*part;
+    (this->*part).resize(std::max((this->*part).size(), more.size()));
+    for (std::size_t k = 0; k < more.size(); ++k) (this->*part)[k] += more[k];
+  }
+}
 
 class Stepper {
  public:

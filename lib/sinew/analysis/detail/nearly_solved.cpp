@@ -21,9 +21,9 @@ constexpr int max_iterations = 60;
 
 }  // namespace
 
-NearlySolved::NearlySolved(const FreeBody& free, double shift) : matrix_(free.springs()) {
-  matrix_.diagonal() += shift * free.mass();
-  const Body& body = free.body();
+NearlySolved::NearlySolved(const HeldBody& held, double shift) : matrix_(held.springs()) {
+  matrix_.diagonal() += shift * held.mass();
+  const Body& body = held.body();
   if (body.rest.size() <= max_solved) {
     solver_.compute(matrix_);
     return;

@@ -2,20 +2,20 @@
 // Solves (K + shift M) x = b for the springs K of a body: exactly for small bodies; of larger ones
 // nearly, by the rigid motions of groups of particles and the stiffness of each particle alone.
 //
-//     const NearlySolved solver(free, shift);
+//     const NearlySolved solver(held, shift);
 //     const Eigen::MatrixXd x = solver.solve(b);
 #pragma once
 
 #include <Eigen/SparseCholesky>
 
-#include <sinew/analysis/detail/free_body.h>
+#include <sinew/analysis/detail/held_body.h>
 
 namespace sinew {
 
 class NearlySolved {
  public:
   /// `shift` in 1/s^2.
-  NearlySolved(const FreeBody& free, double shift);
+  NearlySolved(const HeldBody& held, double shift);
 
   bool sound() const { return solver_.info() == Eigen::Success; }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;

@@ -8,6 +8,7 @@
 #include <sinew/body/pair_pass.h>
 #include <sinew/core/parallel.h>
 #include <sinew/material/laws.h>
+#include <sinew/world/references.h>
 
 namespace sinew {
 namespace {
@@ -32,10 +33,14 @@ std::optional<Solid> solid_of(const Body& body, const Particles& particles) {
 
 CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepping,
                          Particles particles)
-    : body_(std::move(body)), stepping_(stepping), particles_(std::move(particles)) {
+    : body_(std::move(body)),
+      stepping_(stepping),
+      particles_(std::move(particles)),
+      references_(body_) {
   if (body_->grouping)
     throw bad_input("the reference stepper has no groups", "search neighbors by lists");
   solid_ = solid_of(*body_, particles_);
+  references_.set_order(particles_.id);
   sliding_ = SlidingContacts(*body_);
   if (!body_->world) return;
   place_.resize(particles_.size());
@@ -151,6 +156,28 @@ void CellStepper::find_friction() {
   }
 }
 
+/// Adds damping relative to what holds the body to that of eq. 2.
+void CellStepper::add_rigid_damping(const TimedPose& now) {
+  if (references_.damping() == nullptr) return;
+  references_.follow_cracks(steps_, *this);
+  Particles& p = particles_;
+  const kernel::State<double> state{{p.x.data(), p.y.data(), p.z.data()},
+                                    {p.u.data(), p.v.data(), p.w.data()}};
+  references_.find(now, state, {});
+  of_rigid_.pins.assign(now.pose.size(), {});
+  of_rigid_.supports.assign(body_->world ? body_->world->supports.size() : 0, {});
+  rigid_power_ = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto id = static_cast<std::size_t>(p.id[i]);
+    const Vec3 at = p.position(i), force = references_.force(id, mass(i), at, p.velocity(i));
+    forces_.damping[i] += force;
+    rigid_power_ +=
+        force.dot(references_.damping()->velocity_at(id, at, references_.motions()));
+    add_reactions(*references_.damping(), id, at, force, references_.motions(), of_rigid_.pins,
+                  of_rigid_.supports);
+  }
+}
+
 void CellStepper::find_forces(const TimedPose& now) {
   hold(now);
   if (solid_) {
@@ -160,6 +187,7 @@ void CellStepper::find_forces(const TimedPose& now) {
     pair_forces(particles_, *body_, forces_);
   }
   bone_forces(particles_, *body_, now.pose, forces_);
+  add_rigid_damping(now);
   forces_.world.clear();
   friction_.clear();
   if (sliding_.any()) find_friction();
@@ -198,6 +226,7 @@ void CellStepper::save(SimulationState& state) {
   state.moving = MovingInDouble{{now.x, now.y, now.z}, {now.u, now.v, now.w}};
   state.kicked = kicked_;
   sliding_.save(state);
+  references_.save(state);
   save_loads(loads_, state);
   if (!solid_) return;
   state.rest_length = solid_->rest_lengths();
@@ -218,6 +247,9 @@ void CellStepper::restore(const SimulationState& state) {
     throw not_a_state("it has bonds");
   }
   sliding_.restore(state);
+  references_.restore(state);
+  references_.set_order(particles_.id);
+  steps_ = state.steps;
   restore_loads(state, loads_);
   Particles& now = particles_;
   now.x = moving->x[0], now.y = moving->x[1], now.z = moving->x[2];
@@ -258,7 +290,9 @@ void CellStepper::add_world(StepSums& sums) const {
 StepSums CellStepper::sums() const {
   const std::size_t n = particles_.size();
   StepSums sums;
-  sums.power = parallel_sum(n, particles_per_cell_task, [&](std::size_t begin, std::size_t end) {
+  for (const Reaction& of_bone : of_rigid_.pins) sums.power += of_bone.power;
+  sums.world_power = rigid_power_ - sums.power;
+  sums.power += parallel_sum(n, particles_per_cell_task, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) sum += forces_.bone_power[i];
     return sum;
@@ -272,6 +306,7 @@ StepSums CellStepper::sums() const {
     }
     return sum;
   });
+  sums.lost += rigid_power_;
   for (std::size_t i = 0; i < friction_.size(); ++i) sums.lost -= friction_[i].dot(velocity_now(i));
   if (body_->world) add_world(sums);
   return sums;
@@ -350,6 +385,7 @@ StepSums CellStepper::step(const TimedPose& moment) {
     return sums;
   }
   kicked_ = true;
+  ++steps_;
   if (solid_) solid_->branches().advance(stepping_.step);
   return sums;
 }

@@ -13,6 +13,7 @@
 #include <sinew/body/solid.h>
 #include <sinew/body/step_plan.h>
 #include <sinew/rig/pose.h>
+#include <sinew/stepping/detail/rigid_references.h>
 #include <sinew/stepping/stepper.h>
 #include <sinew/world/sliding_contacts.h>
 #include <sinew/world/world.h>
@@ -30,7 +31,9 @@ class CellStepper final : public Stepper {
   Balance evaluate(const TimedPose& now, Forces& forces) override;
   void read(const TimedPose& now, Particles& particles) override;
   WorldReactions reactions() const override {
-    return {reactions_, of_pins_, of_supports_, of_loads_};
+    WorldReactions all{reactions_, of_pins_, of_supports_, of_loads_};
+    all.add(of_rigid_);
+    return all;
   }
   std::vector<std::int32_t> broken_bonds() const override;
   void read(BondRest& rest) const override;
@@ -47,6 +50,7 @@ class CellStepper final : public Stepper {
   void find_world_forces(const TimedPose& now);
   void find_loads(const WorldNow& now);
   void find_friction();
+  void add_rigid_damping(const TimedPose& now);
   void hold_back(const WorldNow& now, const Pose& pose);
   void hold(const TimedPose& now);
   double stored_in_pairs();
@@ -74,6 +78,10 @@ class CellStepper final : public Stepper {
   std::vector<Reaction> reactions_;  ///< of obstacles
   std::vector<Reaction> of_pins_;    ///< on bones
   std::vector<Reaction> of_supports_, of_loads_;
+  RigidReferences references_;
+  std::int64_t steps_ = 0;
+  WorldReactions of_rigid_;  ///< damping
+  double rigid_power_ = 0;   ///< of what that is relative to, W
   std::vector<std::size_t> held_;   ///< index of the particle of each pin of the world
   std::vector<bool> is_held_;       ///< empty without pins
   std::vector<std::size_t> place_;  ///< of a particle, by id; empty without a world

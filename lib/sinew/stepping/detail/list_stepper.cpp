@@ -11,6 +11,7 @@
 #include <sinew/material/laws.h>
 #include <sinew/stepping/detail/force_probe.h>
 #include <sinew/stepping/detail/law_functions.h>
+#include <sinew/world/references.h>
 
 namespace sinew {
 namespace {
@@ -45,6 +46,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
       surroundings_(body_, stepping, particles.mass, kernel_.kept),
       groups_(body_, particles.mass, kernel_),
+      references_(body_),
       lists_(kernel_, body_->material, stepping.step) {
   find_slots();
   groups_.begin(layout_.now, layout_.units());
@@ -61,6 +63,8 @@ void ListStepper<Real>::find_slots() {
   lists_.let_pass(*body_, layout_.id());
   surroundings_.set_order(layout_.id());
   groups_.set_order(layout_.id(), bonds_, !strain_.empty());
+  references_.set_order(layout_.id());
+  find_rigid_slots();
   counted_ = false;
   masses_.assign(body_->density.empty() ? 0 : layout_.now.blocks() * block, 1);
   for (std::size_t k = 0; k < layout_.size() && !masses_.empty(); ++k)
@@ -70,6 +74,40 @@ void ListStepper<Real>::find_slots() {
 template <class Real>
 void ListStepper<Real>::place_bones(const Pose& pose) {
   bones_ = bones_now<Real>(*body_, pose, slots_.center, mass_, layout_.units());
+}
+
+template <class Real>
+void ListStepper<Real>::find_rigid_slots() {
+  if (references_.damping() != nullptr)
+    rigid_slots_ = rigid_slots<Real>(*references_.damping(), layout_.id());
+}
+
+/// What the body is damped relative to.
+template <class Real>
+void ListStepper<Real>::find_references(const TimedPose& now) {
+  if (references_.damping() == nullptr) return;
+  if (references_.follow_cracks(steps_, *this)) find_rigid_slots();
+  references_.find(now, layout_.now.arrays(), layout_.units());
+  const auto motions = references_.motions();
+  references_now_.resize(motions.size());
+  for (std::size_t r = 0; r < motions.size(); ++r)
+    references_now_[r] =
+        motion_now<Real>(motions[r], references_.damping()->references[r].kind, layout_.units());
+}
+
+template <class Real>
+void ListStepper<Real>::find_rigid_reactions() {
+  if (references_.damping() == nullptr) return;
+  rigid_reactions_.pins.assign(body_->skeleton.size(), {});
+  rigid_reactions_.supports.assign(body_->world ? body_->world->supports.size() : 0, {});
+  for (std::size_t k = 0; k < layout_.size(); ++k) {
+    const auto id = static_cast<std::size_t>(layout_.id()[k]);
+    const Vec3 p = layout_.now.position(k, layout_.units());
+    const Vec3 force = references_.force(id, mass_of(*body_, id, mass_), p,
+                                         layout_.now.velocity(k, layout_.units()));
+    add_reactions(*references_.damping(), id, p, force, references_.motions(),
+                  rigid_reactions_.pins, rigid_reactions_.supports);
+  }
 }
 
 template <class Real>
@@ -93,13 +131,16 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.lists = lists_.arrays();
   step.subpieces = lists_.subpieces();
   step.bindings = bindings();
+  if (references_.damping() != nullptr)
+    step.rigid = {real(references_.damping()->rate * T), rigid_slots_.first.data(),
+                  rigid_slots_.slots.data(), rigid_slots_.weights.data(), references_now_.data()};
   step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
   strain_.put_into(step);
   if constexpr (sizeof(Real) == 8) careful_.resize(layout_.now.blocks() * block);
   step.careful = careful_.data();
   step.inverse_count = inverse_count_.empty() ? nullptr : inverse_count_.data() + block;
-  step.central = material.damping_form == DampingForm::central;
+  step.central = acts_along_pairs(material.damping_form);
   step.mass = masses_.empty() ? nullptr : masses_.data();
   step.loads = surroundings_.loads();
   step.grouped = groups_.arrays();
@@ -147,6 +188,7 @@ kernel::Step<Real> ListStepper<Real>::begin(const TimedPose& moment, Points* wor
   groups_.place(layout_.now, layout_.units());
   if (!whole) groups_.activate(layout_.now, layout_.units());
   place_bones(pose);
+  find_references(moment);
   surroundings_.begin(pose, time, layout_.now, layout_.units(), lists_, world_forces);
   if (has_muscles(*body_))
     strain_.fibers.set_activations(activations_at(body_->world->muscles, time));
@@ -220,8 +262,10 @@ void ListStepper<Real>::advance(std::span<const TimedPose> begins, std::vector<S
 
 template <class Real>
 WorldReactions ListStepper<Real>::reactions() const {
-  return {surroundings_.reactions(), surroundings_.reactions_of_pins(),
-          surroundings_.support_reactions(), surroundings_.load_reactions()};
+  WorldReactions all{surroundings_.reactions(), surroundings_.reactions_of_pins(),
+                     surroundings_.support_reactions(), surroundings_.load_reactions()};
+  all.add(rigid_reactions_);
+  return all;
 }
 
 template <class Real>
@@ -363,6 +407,7 @@ void ListStepper<Real>::save(SimulationState& state) {
   groups_.save(state);
   bonds_.save(state);
   surroundings_.save(state);
+  references_.save(state);
   state.kicked = kicked_;
   state.mean_when_sorted = mean_when_sorted_;
 }
@@ -378,6 +423,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   bonds_ = std::move(bonds);
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   groups_ = Groups<Real>(body_, mass_, kernel_);
+  references_.restore(state);
   find_slots();
   groups_.restore(state);
   surroundings_.restore(state);
@@ -403,6 +449,7 @@ Balance ListStepper<Real>::evaluate(const TimedPose& moment, Forces& forces) {
   resize(forces, layout_.size(), body_->world != nullptr || surroundings_.any());
   on_all_pieces([&](std::size_t first, std::size_t last) { probe(first, last, forces); });
   groups_.constrain(forces, layout_.caller(), stepping_.gravity);
+  find_rigid_reactions();
   const StepSums sums = sums_of_totals();
   Balance balance{sums.power, sums.lost, 0, 0, sums.world_power, 0, sums.held_kinetic};
   balance.contact_energy = surroundings_.sums().contact_energy;

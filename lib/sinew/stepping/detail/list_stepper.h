@@ -16,8 +16,10 @@
 #include <sinew/lists/bone_slots.h>
 #include <sinew/lists/list_counts.h>
 #include <sinew/lists/particle_layout.h>
+#include <sinew/lists/rigid_slots.h>
 #include <sinew/lists/strain_lists.h>
 #include <sinew/lists/verlet_lists.h>
+#include <sinew/stepping/detail/rigid_references.h>
 #include <sinew/stepping/detail/surroundings.h>
 #include <sinew/stepping/stepper.h>
 
@@ -65,6 +67,9 @@ class ListStepper final : public Stepper {
   static constexpr std::size_t pieces_at_a_time = 4;  ///< where some take longer than others
 
   void place_bones(const Pose& pose);
+  void find_rigid_slots();
+  void find_references(const TimedPose& now);
+  void find_rigid_reactions();
   kernel::Bindings<Real> bindings() const;
   kernel::Step<Real> job();
   void on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run);
@@ -102,6 +107,10 @@ class ListStepper final : public Stepper {
   StrainLists<Real> strain_;
   Surroundings<Real> surroundings_;
   Groups<Real> groups_;
+  RigidReferences references_;
+  RigidSlots<Real> rigid_slots_;
+  std::vector<kernel::AffineMotion<Real>> references_now_;
+  WorldReactions rigid_reactions_;  ///< of the last probe: of supports, and as pins on bones
   bool counted_ = false;               ///< the neighbors of all particles, in the present order
   std::vector<double> moved_;          ///< by pins, by piece, since the lists followed, m
   std::vector<Real> masses_;           ///< over mass_, padded at the end; empty: 1 each

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/stepping/detail/rigid_references.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include <sinew/body/solid.h>
+#include <sinew/core/decompositions.h>
+#include <sinew/core/parallel.h>
+#include <sinew/core/union_find.h>
+#include <sinew/world/references.h>
+
+namespace sinew {
+namespace {
+
+constexpr std::size_t block_of_sums = 2048, blocks_per_task = 4;
+// By the step count alone, so that a resumed run looks when an uninterrupted one does.
+constexpr std::int64_t steps_between_looks = 256;
+constexpr double no_inertia = 1e-12;  // of the largest: as of particles in a row
+
+using Four = Eigen::Array4d;
+
+template <class Coord>
+Four four(const Coord* from) {
+  return Eigen::Map<const Eigen::Array<Coord, 4, 1>>(from).template cast<double>();
+}
+
+template <class Real>
+Vec3 place(const kernel::State<Real>& state, const Units& units, std::size_t k) {
+  const auto coordinate = [&](int axis) { return static_cast<double>(state.x[axis][k]); };
+  return units.origin + units.length * Vec3(coordinate(0), coordinate(1), coordinate(2));
+}
+
+/// Adds a term for each of the sums, of one particle or of four.
+template <class Value, class All>
+void add_terms(const std::array<Value, 3>& x, const std::array<Value, 3>& p, All& sums) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+    sums[1 + k] += x[k];
+    sums[4 + k] += x[k] * x[k];
+    sums[7 + k] += x[l] * x[m];
+    sums[10 + k] += p[k];
+    sums[13 + k] += x[l] * p[m] - x[m] * p[l];
+  }
+}
+
+}  // namespace
+
+RigidReferences::RigidReferences(std::shared_ptr<const Body> body) : body_(std::move(body)) {
+  set_damping(body_->rigid_damping);
+}
+
+void RigidReferences::set_damping(std::shared_ptr<const RigidDamping> damping) {
+  damping_ = std::move(damping);
+  alike_ = damping_ && damping_->shares.size() == body_->rest.size() && body_->density.empty();
+}
+
+void RigidReferences::set_order(std::span<const std::int32_t> id) {
+  if (!damping_) return;
+  const RigidDamping& damping = *damping_;
+  parts_.clear();
+  part_.clear();
+  id_.assign(id.begin(), id.end());
+  const auto moves_itself = [](const Reference& one) { return one.kind == Reference::itself; };
+  if (std::none_of(damping.references.begin(), damping.references.end(), moves_itself)) return;
+  part_.assign(id.size(), none);
+  std::vector<std::uint32_t> part_of(damping.references.size(), none);
+  std::vector<std::size_t> place_of(body_->rest.size());
+  for (std::size_t k = 0; k < id.size(); ++k) {
+    place_of[static_cast<std::size_t>(id[k])] = k;
+    for (const Share& share : damping.of(static_cast<std::size_t>(id[k]))) {
+      if (damping.references[share.reference].kind != Reference::itself) continue;
+      std::uint32_t& part = part_of[share.reference];
+      if (part == none) {
+        part = static_cast<std::uint32_t>(parts_.size());
+        parts_.push_back({share.reference, k, {}});
+      }
+      part_[k] = part;
+    }
+  }
+  for (Part& part : parts_)
+    for (const std::uint32_t pin : damping.references[part.reference].pins)
+      part.pins.push_back(place_of[body_->world->pins[pin].particle]);
+}
+
+/// Sums over particles of one part.
+template <class Real>
+RigidReferences::Sums RigidReferences::sums_of(const kernel::State<Real>& state, const Units& units,
+                                     const Vec3& about, std::size_t begin, std::size_t end) const {
+  Sums sums{};
+  const double L = units.length, speed = units.length / units.time;
+  const Vec3 shift = units.origin - about;
+  std::size_t k = begin;
+  if (alike_) {
+    std::array<Four, 16> fours;
+    fours.fill(Four::Zero());
+    for (; k + 4 <= end; k += 4) {
+      std::array<Four, 3> x, p;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        x[axis] = four(state.x[axis] + k) * L + shift[static_cast<int>(axis)];
+        p[axis] = four(state.v[axis] + k) * speed;
+      }
+      add_terms(x, p, fours);
+    }
+    for (std::size_t n = 1; n < sums.size(); ++n)
+      sums[n] = (fours[n][0] + fours[n][1]) + (fours[n][2] + fours[n][3]);
+    sums[0] = static_cast<double>(k - begin);
+  }
+  for (; k < end; ++k) {
+    const auto id = static_cast<std::size_t>(id_[k]);
+    const Vec3 at = place(state, units, k);
+    Vec3 v;
+    for (int axis = 0; axis < 3; ++axis) v[axis] = static_cast<double>(state.v[axis][k]) * speed;
+    for (const Share& share : damping_->of(id))
+      if (share.reference != parts_[part_[k]].reference)
+        v -= share.weight * motions_[share.reference].velocity_at(at);
+    const double mass = mass_of(*body_, id, 1);
+    const Vec3 x = at - about;
+    Sums one{};
+    add_terms(std::array{x[0], x[1], x[2]}, std::array{v[0], v[1], v[2]}, one);
+    one[0] = 1;
+    for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += mass * one[n];
+  }
+  return sums;
+}
+
+/// The rigid motion, of those that the part is free to make, with its momenta.
+AffineMotion RigidReferences::motion_of(const Part& part, const Sums& sums, const Vec3& about,
+                                   std::span<const Vec3> pins) const {
+  const double mass = sums[0];
+  const Vec3 off = Vec3(sums[1], sums[2], sums[3]) / mass;  // of the center of mass
+  const Vec3 p(sums[10], sums[11], sums[12]);
+  Mat3 second;
+  second << sums[4], sums[9], sums[8], sums[9], sums[5], sums[7], sums[8], sums[7], sums[6];
+  second -= mass * off * off.transpose();
+  const double arm = std::sqrt(std::max(second.trace() / mass, 1e-300));
+  Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Zero();
+  inertia.topLeftCorner<3, 3>() = mass * Mat3::Identity();
+  inertia.bottomRightCorner<3, 3>() = second.trace() * Mat3::Identity() - second;
+  Eigen::Matrix<double, 6, 1> momenta;
+  momenta << p, Vec3(sums[13], sums[14], sums[15]) - off.cross(p);
+  const Vec3 center = about + off;
+  const auto free = free_motions(damping_->references[part.reference],
+                                 body_->world.get(), pins, center, arm);
+  // Lengths in arms, so that displacements and rotations are alike.
+  Eigen::Matrix<double, 6, 1> scale;
+  scale << 1, 1, 1, 1 / arm, 1 / arm, 1 / arm;
+  const Eigen::MatrixXd basis = scale.cwiseInverse().asDiagonal() * free;
+  const auto [values, axes] =
+      eigendecomposition(basis.transpose() * scale.asDiagonal() * inertia * scale.asDiagonal() *
+                         basis);
+  Eigen::VectorXd along = axes.transpose() * (basis.transpose() * scale.asDiagonal() * momenta);
+  for (Eigen::Index k = 0; k < along.size(); ++k)
+    along[k] = values[k] > no_inertia * mass ? along[k] / values[k] : 0;
+  const Eigen::Matrix<double, 6, 1> motion = scale.asDiagonal() * basis * axes * along;
+  return {center, motion.head<3>(), cross_matrix(motion.tail<3>())};
+}
+
+template <class Real>
+void RigidReferences::find(const TimedPose& moment, const kernel::State<Real>& state,
+                           const Units& units) {
+  if (!damping_) return;
+  motions_ = motions_of_holders(*damping_, *body_, moment.time, moment.pose);
+  Points about;
+  for (const Part& part : parts_) about.push_back(place(state, units, part.first));
+  const std::size_t blocks = (part_.size() + block_of_sums - 1) / block_of_sums;
+  std::vector<std::vector<Run>> runs(blocks);
+  parallel_for(blocks, blocks_per_task, [&](std::size_t from, std::size_t to) {
+    for (std::size_t block = from; block < to; ++block) {
+      const std::size_t last = std::min((block + 1) * block_of_sums, part_.size());
+      for (std::size_t k = block * block_of_sums, end = k; k < last; k = end) {
+        while (end < last && part_[end] == part_[k]) ++end;
+        if (part_[k] != none)
+          runs[block].push_back({part_[k], sums_of(state, units, about[part_[k]], k, end)});
+      }
+    }
+  });
+  std::vector<Sums> sums(parts_.size(), Sums{});
+  for (const auto& block : runs)  // in this order, whichever thread made them
+    for (const Run& run : block)
+      for (std::size_t n = 0; n < run.sums.size(); ++n) sums[run.part][n] += run.sums[n];
+  for (std::size_t n = 0; n < parts_.size(); ++n) {
+    Points pins;
+    for (const std::size_t k : parts_[n].pins) pins.push_back(place(state, units, k));
+    motions_[parts_[n].reference] = motion_of(parts_[n], sums[n], about[n], pins);
+  }
+}
+
+template void RigidReferences::find(const TimedPose&, const kernel::State<double>&, const Units&);
+template void RigidReferences::find(const TimedPose&, const kernel::State<float>&, const Units&);
+
+bool RigidReferences::follow_cracks(std::int64_t steps, const Stepper& stepper) {
+  if (!damping_ || steps % steps_between_looks != 0) return false;
+  const std::vector<std::int32_t> broken = stepper.broken_bonds();
+  const std::int64_t now = std::accumulate(broken.begin(), broken.end(), std::int64_t{0});
+  if (now == broken_) return false;
+  broken_ = now;
+  const SharedNeighbors shared = neighbors_of(*body_);
+  const NeighborLists &near = shared->nearest, second = {};
+  BondRest rest(near, second);
+  stepper.read(rest);
+  const std::vector<double> length = rest.take();
+  UnionFind sets(body_->rest.size());
+  for (std::uint32_t i = 0; i < body_->rest.size(); ++i)
+    for (std::uint32_t e = near.first[i]; e < near.first[i + 1]; ++e)
+      if (length[e] > 0)
+        sets.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(near.neighbor[e]));
+  piece_.resize(body_->rest.size());
+  for (std::size_t i = 0; i < piece_.size(); ++i)
+    piece_[i] = static_cast<std::uint32_t>(sets.first_of(static_cast<std::int32_t>(i)));
+  set_damping(std::make_shared<const RigidDamping>(cut(*body_->rigid_damping, *body_, piece_)));
+  set_order(std::vector<std::int32_t>(id_));
+  return true;
+}
+
+void RigidReferences::save(SimulationState& state) const {
+  state.pieces = piece_;
+  state.broken_ends = broken_;
+}
+
+void RigidReferences::restore(const SimulationState& state) {
+  if (!damping_) return;
+  if (!state.pieces.empty() && state.pieces.size() != body_->rest.size())
+    throw not_a_state("it has pieces of " + std::to_string(state.pieces.size()) + " particles");
+  piece_ = state.pieces;
+  broken_ = state.broken_ends;
+  set_damping(piece_.empty() ? body_->rigid_damping
+                             : std::make_shared<const RigidDamping>(
+                                   cut(*body_->rigid_damping, *body_, piece_)));
+}
+
+}  // namespace sinew
