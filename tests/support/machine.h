@@ -58,11 +58,14 @@ class Machine {
     return force_load("pull", on, std::vector<double>(on.size(), 1.0), force, rest);
   }
 
+  /// Held by the world, with the damping ratio that it has there.
   Body body() const {
-    Body body = test::make_body(settings, rest);
+    Body body =
+        make_body(settings, {}, skeleton_of(settings), test::particles_of(settings, rest));
     World made = world;
     hold(made, rest.size());
     body.world = std::make_shared<const World>(std::move(made));
+    set_damping_ratio(settings, body);
     return body;
   }
 
@@ -84,15 +87,13 @@ class Machine {
   }
 
   Simulation begin() const {
-    Body body = test::make_body(settings, rest);
-    World made = world;
-    hold(made, rest.size());
-    const Particles particles = particles_at(rest, r, body.material.mass);
-    const WorldLoad load = {added_stiffness(made, particles), added_damping(made, particles)};
+    const Body made = body();
+    return begin(made, particles_at(rest, r, made.material.mass));
+  }
+  Simulation begin(const Body& made, const Particles& particles) const {
     const double step =
-        0.5 * step_limit(settings.solver.integrator, body.material, body.springs, load);
-    body.world = std::make_shared<const World>(std::move(made));
-    return Simulation(body, {}, particles, stepping_of(settings.solver, step));
+        0.5 * step_limit(settings.solver.integrator, made.material, made.springs, load_of(made));
+    return Simulation(made, {}, particles, stepping_of(settings.solver, step));
   }
 
   Simulation after(double duration) const {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t block_of_sums = 2048, blocks_per_task = 4;
 // By the step count alone, so that a resumed run looks when an uninterrupted one does.
-constexpr std::int64_t steps_between_looks = 256;
+constexpr std::int64_t steps_between_looks = 64;
 constexpr double no_inertia = 1e-12;  // of the largest: as of particles in a row
 
 using Four = Eigen::Array4d;
@@ -199,8 +199,8 @@ bool RigidReferences::follow_cracks(std::int64_t steps, const Stepper& stepper) 
   const std::int64_t now = std::accumulate(broken.begin(), broken.end(), std::int64_t{0});
   if (now == broken_) return false;
   broken_ = now;
-  const SharedNeighbors shared = neighbors_of(*body_);
-  const NeighborLists &near = shared->nearest, second = {};
+  if (!near_) near_ = neighbors_of(*body_);
+  const NeighborLists &near = near_->nearest, second = {};
   BondRest rest(near, second);
   stepper.read(rest);
   const std::vector<double> length = rest.take();

@@ -75,6 +75,7 @@ class RigidReferences {
   std::vector<Part> parts_;
   std::vector<std::int32_t> id_;
   std::vector<std::uint32_t> part_;   ///< of each particle, in the order; empty: of none
+  SharedNeighbors near_;              ///< at rest, once bonds have broken
   std::vector<std::uint32_t> piece_;  ///< label by id, once bonds have broken
   std::int64_t broken_ = 0;           ///< ends of bonds, when these were found
   std::vector<AffineMotion> motions_;
