@@ -70,8 +70,11 @@ LoadSteps load_steps_of(const Settings& settings, const Prepared& prepared);
 double strain_rate(const Prepared& prepared);
 
 /// The rate of material.creep_rate, 1/s; auto: so fast that at strain_rate() the stress of a bar
-/// that is pulled exceeds the yield stress by 2 %, and at once in the static method.
+/// that is pulled exceeds the yield stress by 2 %, but no faster than half of what exceeds it in a
+/// step; and at once in the static method.
 double creep_rate_of(const Prepared& prepared);
+/// By how much that stress exceeds the yield stress, of it; 0 where the rate is not automatic.
+double stress_above_yield(const Prepared& prepared);
 
 // The stepper that a run uses.
 

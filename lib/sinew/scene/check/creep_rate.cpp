@@ -85,14 +85,36 @@ double strain_rate(const Prepared& prepared) {
   return std::max({rates.turn, rates.speed / width, std::sqrt(2 * acceleration / width)});
 }
 
+namespace {
+
+/// What an automatic rate aims at, of the yield stress; more of a step's strain flowing in it
+/// overshoots.
+constexpr double aimed_overstress = 0.02, max_crept = 0.5;
+
+/// The rate at which strain rates lead to that overstress, 1/s.
+double rate_for(const Prepared& prepared, double overstress) {
+  return std::sqrt(1.5) * strain_rate(prepared) / (overstress * min_yield(prepared.body));
+}
+
+}  // namespace
+
 double creep_rate_of(const Prepared& prepared) {
-  constexpr double overstress = 0.02, slowest = 1;  // of the yield stress; 1/s
+  constexpr double slowest = 1;  // 1/s
   const BondStrength& bond = prepared.body.material.bond;
   if (bond.yield_shear <= 0 || prepared.settings.material.creep_rate) return bond.creep_rate;
   // Equilibria have no time: each iteration takes all that exceeds the yield stress.
   if (prepared.settings.solver.method == Method::static_equilibrium) return 1 / prepared.steps.step;
-  return std::max(slowest,
-                  std::sqrt(1.5) * strain_rate(prepared) / (overstress * min_yield(prepared.body)));
+  return std::min(std::max(slowest, rate_for(prepared, aimed_overstress)),
+                  max_crept / prepared.steps.step);
+}
+
+double stress_above_yield(const Prepared& prepared) {
+  const Settings& settings = prepared.settings;
+  const BondStrength& bond = prepared.body.material.bond;
+  if (bond.yield_shear <= 0 || settings.material.creep_rate ||
+      settings.solver.method == Method::static_equilibrium)
+    return 0;
+  return rate_for(prepared, 1) / bond.creep_rate;
 }
 
 }  // namespace sinew

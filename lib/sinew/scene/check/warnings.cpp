@@ -10,6 +10,7 @@
 #include <sinew/body/solid.h>
 #include <sinew/core/text.h>
 #include <sinew/rig/motion_checks.h>
+#include <sinew/scene/check/costly_choices.h>
 #include <sinew/scene/rigid_parts.h>
 #include <sinew/world/world.h>
 
@@ -41,6 +42,7 @@ constexpr double largest_fall = 0.9e-3, smallest_barrier = 0.055;
 constexpr double fastest_bone =
     0.5;  // radii per step: faster bones pass neighbors instead of pushing them
 constexpr double largest_miss = 0.1;   // of a modulus
+constexpr double largest_overstress = 0.1;  // of the yield stress
 constexpr double deepest_start = 0.1;  // radii inside an obstacle: more is visible as a kick
 constexpr double min_shift = 0.1;      // radii: a smaller jump of a bone is invisible
 // In square roots of a bone's cross-section: 0.6 is the rim of a round limb.
@@ -331,6 +333,18 @@ void warn_of_still_body(const Prepared& prepared, Warnings& warnings) {
       "motion.tracks to bones that hold particles");
 }
 
+/// Where automatic creep cannot be as fast as the scene strains the body.
+void warn_of_flow(const Prepared& prepared, Warnings& warnings) {
+  const double above = stress_above_yield(prepared);
+  if (above > largest_overstress)
+    warnings.push_back("creep is bounded to " +
+                       three_digits(prepared.body.material.bond.creep_rate) +
+                       "/s by the step: where the scene strains the body fastest, it bears up to " +
+                       three_digits(100 * above) +
+                       " % more than its yield stress; set material.creep_rate, or a shorter "
+                       "solver.time_step");
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed) {
@@ -338,6 +352,8 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
   if (!law_of(prepared.body.material).has_bonds)
     warn_of_material(prepared.body.material.pair, warnings);
   warn_of_step(prepared.steps, warnings);
+  for (std::string& note : costly_choices(prepared)) warnings.push_back(std::move(note));
+  warn_of_flow(prepared, warnings);
   if (grows(prepared.settings, prepared.body))
     warnings.push_back(
         "explicit Euler without damping of bones or material, as the paper prints it, lets every "
