@@ -46,8 +46,10 @@ void add_pictures(const Prepared& prepared, const std::vector<Intrusion>& meetin
   results.add("picture_of_meeting", path.string());
 }
 
-Exit check(const std::string& scene, const std::string& picture, const Common& common) {
+Exit check(const std::string& scene, const std::string& picture, int modes,
+           const std::string& output, const Common& common) {
   refuse_mesh_as_scene(scene);
+  if (!output.empty()) refuse_output(output, {scene}, ".pvd");
   if (!picture.empty()) {
     refuse_output(picture, {scene}, ".png");
     prepare_to_draw();
@@ -55,10 +57,15 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
   std::optional<Waiting> waiting(std::in_place, "preparing", progress_style(common.quiet));
   const Prepared prepared = prepare({read_scene(scene, common.overrides)});
   waiting.emplace("trying steps and modes", progress_style(common.quiet));
-  const SceneCheck check = check_scene(prepared, run_folder(scene, "").path);
+  const SceneCheck check =
+      check_scene(prepared, run_folder(scene, "").path, modes > 0 ? modes : output.empty() ? 1 : 6);
   waiting.reset();
   Results results;
   results.add(check.findings);
+  if (!output.empty()) {
+    write_modes(prepared, check.shapes, output);
+    results.add("shapes", output);
+  }
   if (!picture.empty()) add_pictures(prepared, check.meeting, picture, results);
   results.add("warnings", check.warnings.size());
   results.print(common);
@@ -69,18 +76,29 @@ Exit check(const std::string& scene, const std::string& picture, const Common& c
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene, picture;
+  std::string scene, picture, output;
+  int modes = 0;
   return run_command(
       argc, argv,
       {"check",
        "Reports what a run needs, and doubtful settings of its scene.",
        {"sinew check configs/box_bend.yaml",
         "sinew check configs/box_bend.yaml --picture scene.png",
-        "sinew check configs/box_bend.yaml --set body.radius=0.005"}},
+        "sinew check configs/box_bend.yaml --set body.radius=0.005",
+        "sinew check configs/bar_pull.yaml --modes 6 -o modes.pvd"}},
       [&](OptionList& list) {
         list.add("SCENE", scene, "Scene file (YAML)").required();
         list.add("--picture", picture, "Draw the scene: its bones in its mesh, with axes in meters")
             .type_name("FILE.png");
+        list.add("--modes", modes, "Number of the lowest elastic modes to list")
+            .type_name("N")
+            .range(1, 60);
+        list.add("-o,--output", output,
+                 "Write their shapes (6, unless --modes says otherwise) for ParaView, 12 frames of "
+                 "a period")
+            .type_name("FILE.pvd");
       },
-      [&](const Common& common) { return check(scene, picture, common); });
+      [&](const Common& common) { 
+        return check(scene, picture, modes, output, common);
+      });
 }

@@ -52,6 +52,7 @@ Reference brute_force(const Particles& particles, const Material& material) {
         sum.damping[i] -= C * mean * relative;
         break;
       case DampingForm::central:
+      case DampingForm::rigid:
         sum.damping[i] -= C * mean * relative.dot(e) * e;
         break;
     }

@@ -12,6 +12,7 @@
 #include <sinew/analysis/detail/held_body.h>
 #include <sinew/analysis/detail/nearly_solved.h>
 #include <sinew/body/bond_factors.h>
+#include <sinew/core/cell_grid.h>
 #include <sinew/core/decompositions.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/union_find.h>
@@ -108,8 +109,12 @@ Matrix rigid_motions(const Points& rest) {
 /// the springs alone precondition.
 class ModeFinder {
  public:
-  ModeFinder(const Body& body, const Vector& mass, Holding holding)
+  /// `shapes`: modes wanted with them.
+  ModeFinder(const Body& body, const Vector& mass, Holding holding, int shapes)
       : body_(body, mass, std::move(holding)),
+        judged_(std::max<Eigen::Index>(2, shapes)),
+        kept_(std::max<Eigen::Index>(kept_modes, shapes + 3)),
+        shapes_(shapes),
         rigid_(free_to_move(orthonormal(rigid_motions(body.rest)))) {}
 
   ElasticModes find() {
@@ -128,7 +133,7 @@ class ModeFinder {
       wider << modes_, corrections;
       ritz(orthonormal(wider));
       const Eigen::Index same = std::min(before.size(), squared_.size());
-      const Eigen::Index judged = std::min<Eigen::Index>(same, 2);
+      const Eigen::Index judged = std::min(same, judged_);
       if ((squared_.head(judged) - before.head(judged)).cwiseAbs().maxCoeff() <
           converged * std::abs(squared_[judged - 1]))
         break;
@@ -211,7 +216,8 @@ class ModeFinder {
   }
 
   /// The lowest modes within the span of an orthonormal basis.
-  void ritz(const Matrix& basis, Eigen::Index most = kept_modes) {
+  void ritz(const Matrix& basis) { ritz(basis, kept_); }
+  void ritz(const Matrix& basis, Eigen::Index most) {
     const Matrix forces = body_.stiffness(basis);
     Matrix reduced = basis.transpose() * forces;
     reduced = (reduced + reduced.transpose()).eval() / 2;
@@ -231,11 +237,18 @@ class ModeFinder {
   }
 
   ElasticModes result() {
-    return {squared_, modes_.transpose() * body_.damping(modes_),
-            modes_.transpose() * body_.damping_of_bones(modes_)};
+    ElasticModes found{squared_, modes_.transpose() * body_.damping(modes_),
+                       modes_.transpose() * body_.damping_of_bones(modes_)};
+    for (Eigen::Index n = 0; n < std::min(shapes_, modes_.cols()); ++n) {
+      Points& shape = found.shapes.emplace_back();
+      for (Eigen::Index i = 0; i < modes_.rows(); i += 3)
+        shape.push_back(modes_.col(n).segment<3>(i));
+    }
+    return found;
   }
 
   HeldBody body_;
+  Eigen::Index judged_, kept_, shapes_;
   Matrix rigid_;
   Matrix modes_, stiffness_;  ///< u and K u
   Vector squared_;
@@ -243,7 +256,7 @@ class ModeFinder {
 
 /// Finds the modes of a body small enough; masses in proportion to the volume shares, or all the
 /// same.
-ElasticModes modes_of(const Body& whole, const Holding& holding, bool by_volume) {
+ElasticModes modes_of(const Body& whole, const Holding& holding, bool by_volume, int shapes) {
   const std::vector<std::size_t> places = largest_part(whole);
   const Body body = part_of(whole, places);
   const auto n = static_cast<Eigen::Index>(body.rest.size());
@@ -256,15 +269,40 @@ ElasticModes modes_of(const Body& whole, const Holding& holding, bool by_volume)
         mass_of(body, static_cast<std::size_t>(i), body.material.mass) *
         (by_volume ? body.volume_share[static_cast<std::size_t>(i)] * static_cast<double>(n) / sum
                    : 1));
-  return ModeFinder(body, mass, holding.part(places)).find();
+  ElasticModes found = ModeFinder(body, mass, holding.part(places), shapes).find();
+  for (Points& shape : found.shapes) {
+    Points all(whole.rest.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = shape[k];
+    shape = std::move(all);
+  }
+  return found;
+}
+
+/// Values at `places` of those at points of a packing, `spacing` (m) apart: means, nearer ones more.
+Points interpolated(const Points& values, const Points& at, double spacing, const Points& places) {
+  Points all(places.size(), Vec3::Zero());
+  const double range = 1.5 * spacing;
+  const CellGrid grid(at, range);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double sum = 0;
+    grid.for_each_near(places[i], [&](std::uint32_t j) {
+      const double weight = std::max(0.0, 1 - (at[j] - places[i]).norm() / range);
+      all[i] += weight * weight * values[j];
+      sum += weight * weight;
+    });
+    if (sum > 0) all[i] /= sum;
+  }
+  return all;
 }
 
 /// The modes of a packing `times` as coarse, with rates as of the body.
-ElasticModes coarse_modes(const Body& body, int times) {
+ElasticModes coarse_modes(const Body& body, int times, int shapes) {
   const Body coarse = coarse_body(body, times);
   const Holding holding =
       spread_onto(coarse.rest, 2 * coarse.material.pair.r, body.rest, holding_of(body));
-  ElasticModes modes = modes_of(coarse, holding, true);
+  ElasticModes modes = modes_of(coarse, holding, true, shapes);
+  for (Points& shape : modes.shapes)
+    shape = interpolated(shape, coarse.rest, 2 * coarse.material.pair.r, body.rest);
   const double finer = body.material.pair.r / coarse.material.pair.r;
   modes.rates *= finer * finer * static_cast<double>(body.rest.size()) /
                  static_cast<double>(coarse.rest.size());
@@ -380,14 +418,21 @@ double ElasticModes::rate_for(double ratio, double damping) const {
          });
 }
 
-ElasticModes elastic_modes(const Body& body) {
+ElasticModes elastic_modes(const Body& body, int shapes) {
   const auto count = static_cast<double>(body.rest.size());
   int times = 1;
   while (count / std::pow(times, 3) > max_particles) ++times;
   if (times > 1)
     times = static_cast<int>(std::clamp(layers_across(body) / min_layers, 1.0, 1.0 * times));
   if (count / std::pow(times, 3) > max_iterated) return {};
-  return times == 1 ? modes_of(body, holding_of(body), false) : coarse_modes(body, times);
+  ElasticModes found = times == 1 ? modes_of(body, holding_of(body), false, shapes)
+                                  : coarse_modes(body, times, shapes);
+  for (Points& shape : found.shapes) {
+    double largest = 0;
+    for (const Vec3& u : shape) largest = std::max(largest, u.norm());
+    for (Vec3& u : shape) u /= std::max(largest, 1e-300);
+  }
+  return found;
 }
 
 std::string held_by(const Body& body) {

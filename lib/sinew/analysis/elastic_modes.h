@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include <sinew/body/body.h>
 
@@ -19,6 +20,9 @@ struct ElasticModes {
   Eigen::VectorXd squared;         ///< w^2, ascending, 1/s^2; empty: the body has no elastic mode
   Eigen::MatrixXd rates;           ///< of eq. 2 between them for C = 1 kg/s, 1/s
   Eigen::MatrixXd rates_of_bones;  ///< of the damping of bones, 1/s
+  /// Displacements by particle id of as many of the lowest modes as were asked for, or as there
+  /// are; the largest of each is of length 1.
+  std::vector<Points> shapes = {};
 
   bool empty() const { return squared.size() == 0; }
   /// Returns the frequency of the lowest mode, undamped, rad/s.
@@ -37,9 +41,10 @@ struct ElasticModes {
   double ratio_of(const Eigen::MatrixXd& damping) const;
 };
 
-/// Finds the modes of the body's largest connected part; none of a body of more than 200,000
-/// particles that is too thin to be coarsened to so many.
-ElasticModes elastic_modes(const Body& body);
+/// Finds the modes of the body's largest connected part, so many of them to four digits and with
+/// their shapes; none of a body of more than 200,000 particles that is too thin to be coarsened to
+/// so many.
+ElasticModes elastic_modes(const Body& body, int shapes = 0);
 
 /// "bones and supports": what holds a body; "nothing".
 std::string held_by(const Body& body);

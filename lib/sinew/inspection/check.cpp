@@ -13,6 +13,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/groups/kept_free.h>
+#include <sinew/io/series.h>
 #include <sinew/scene/check/model_limits.h>
 #include <sinew/scene/check/needs.h>
 #include <sinew/scene/check/rest_trial.h>
@@ -79,13 +80,14 @@ void add_sizes(const Prepared& prepared, Findings& results) {
   results.add("mass", particles.mass * static_cast<double>(particles.size()), "kg");
 }
 
-/// How the body rings as it is held. `asked`: its damping ratio.
-void add_modes(const Body& body, std::optional<double> asked, Findings& results) {
+/// How the body rings as it is held. `asked`: its damping ratio. Returns the shapes of its modes.
+std::vector<Points> add_modes(const Body& body, std::optional<double> asked, int wanted,
+                              Findings& results) {
   results.add("damping_constant", body.material.damping, "kg/s");
   // Bodies on bones are braked alike where these turn.
   if (const double time = spin_time(body); std::isfinite(time)) results.add("spin_time", time, "s");
-  const ElasticModes modes = elastic_modes(body);
-  if (modes.empty()) return;
+  const ElasticModes modes = elastic_modes(body, wanted);
+  if (modes.empty()) return {};
   results.add("lowest_frequency", modes.frequency() / (2 * pi), "Hz");
   results.add("held_by", held_by(body));
   const double rate = body.rigid_damping ? body.rigid_damping->rate : 0;
@@ -94,6 +96,14 @@ void add_modes(const Body& body, std::optional<double> asked, Findings& results)
   const bool more = asked && ratio > 1.02 * *asked && modes.damping_ratio(0) > *asked;
   results.add("damping_ratio", ratio,
               more ? "by binding.bone_damping, " + three_digits(*asked) + " asked" : "");
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (std::size_t n = 0; n < modes.shapes.size(); ++n) {
+    const double frequency = std::sqrt(modes.squared[static_cast<Eigen::Index>(n)]) / (2 * pi);
+    all.push_back({{"frequency", frequency}, {"held_by", held_by(body)}});
+    if (wanted > 1) results.add_line("mode_" + std::to_string(n + 1), frequency, "Hz");
+  }
+  results.add_value("modes", all);
+  return modes.shapes;
 }
 
 void add_material(const Material& material, Findings& results) {
@@ -280,7 +290,7 @@ void add_stepper(const StepperChoice& choice, Findings& results) {
 
 }  // namespace
 
-SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& folder) {
+SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& folder, int modes) {
   SceneCheck check;
   Findings& results = check.findings;
   const Needs needs = needs_of(prepared);
@@ -297,8 +307,9 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
   add_sizes(prepared, results);
   add_material(prepared.body.material, results);
   add_rest(try_rest(prepared), results);
-  add_modes(prepared.body,
-            prepared.load_steps ? std::nullopt : prepared.settings.material.damping_ratio, results);
+  check.shapes = add_modes(
+      prepared.body, prepared.load_steps ? std::nullopt : prepared.settings.material.damping_ratio,
+      modes, results);
   add_planes(prepared.body, results);
   for (const ModelLimit& limit : model_limits(prepared))
     results.add(limit.key, limit.value, limit.text);
@@ -318,6 +329,28 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
   results.add("particle_steps_per_second", rate);
   if (!prepared.load_steps) results.add("stepping_time", work / rate, "s");
   return check;
+}
+
+void write_modes(const Prepared& prepared, const std::vector<Points>& shapes,
+                 const std::filesystem::path& path) {
+  constexpr int frames = 12;
+  const Points& rest = prepared.body.rest;
+  const double size = bounds(rest).sizes().maxCoeff() / 10;
+  Series series(path.parent_path().empty() ? "." : path.parent_path(),
+                {.series = path.stem().string(), .radius = prepared.body.material.pair.r});
+  for (int k = 0; k < frames; ++k) {
+    Dataset frame;
+    frame.time = static_cast<double>(k) / frames;
+    frame.points = rest;
+    frame.connectivity = vertex_cells(rest.size());
+    for (std::size_t n = 0; n < shapes.size(); ++n) {
+      Points moved = shapes[n];
+      for (Vec3& u : moved) u *= size * std::sin(2 * pi * frame.time);
+      frame.point_columns.push_back(column("mode_" + std::to_string(n + 1), moved));
+    }
+    series.add(frame);
+  }
+  series.close();
 }
 
 }  // namespace sinew

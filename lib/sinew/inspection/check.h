@@ -18,9 +18,18 @@ struct SceneCheck {
   Findings findings;
   std::vector<std::string> warnings;  ///< each with its cure
   std::vector<Intrusion> meeting;     ///< flesh that the motion drives into other flesh
+  std::vector<Points> shapes;         ///< of the modes that were found, by particle id
 };
 
-/// Steps the body for up to a second or so to measure speed. `folder`: where the run will be.
-SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& folder);
+/// Steps the body for up to a second or so to measure speed. `folder`: where the run will be;
+/// `modes`: how many of the lowest elastic modes to list.
+SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& folder,
+                       int modes = 1);
+
+/// Writes a series of 12 frames, a period of each mode: arrays mode_1, mode_2 and so on (m) on the
+/// points of body.vtu, the largest displacement a tenth of the body's extent. Times are fractions
+/// of the period. `path` ends in .pvd. Throws not written.
+void write_modes(const Prepared& prepared, const std::vector<Points>& shapes,
+                 const std::filesystem::path& path);
 
 }  // namespace sinew

@@ -205,9 +205,32 @@ void ListStepper<Real>::find_deformation(const kernel::Step<Real>& now) {
   find_flow(now);
   if (inverse_count_.empty()) return;
   auto counting = now;
-  // Within groups, the neighbors of idle blocks remain.
-  if (!std::exchange(counted_, true)) counting.grouped = {};
-  on_all_pieces([&](std::size_t first, std::size_t last) { work_.count(counting, first, last); });
+  if (!std::exchange(counted_, true)) {
+    counting.grouped = {};  // within groups, the neighbors of idle blocks remain
+    bonds_count_.assign(totals_.size(), 0);
+  }
+  on_all_pieces([&](std::size_t first, std::size_t last) {
+    for (std::size_t piece = first; piece < last; ++piece) {
+      if (counts_are_of_bonds(now, piece)) continue;
+      work_.count(counting, piece, piece + 1);
+      bonds_count_[piece] = is_bonded(law_) && !groups_.any() && meets_none(now, piece) ? 1 : 0;
+    }
+  });
+}
+
+/// Whether the neighbors of a piece's particles are as they were counted: bonds alone.
+template <class Real>
+bool ListStepper<Real>::counts_are_of_bonds(const kernel::Step<Real>& now,
+                                            std::size_t piece) const {
+  return bonds_count_[piece] != 0 && !totals_[piece].broke && meets_none(now, piece);
+}
+
+/// Whether no particle of a piece may touch one that it is not bonded to.
+template <class Real>
+bool ListStepper<Real>::meets_none(const kernel::Step<Real>& now, std::size_t piece) const {
+  const std::uint32_t* first = now.lists[piece].first;
+  return first[0] ==
+         first[std::min(kernel::blocks_per_piece, now.blocks - piece * kernel::blocks_per_piece)];
 }
 
 template <class Real>

@@ -77,6 +77,8 @@ class ListStepper final : public Stepper {
   void follow_units();
   kernel::Step<Real> begin(const TimedPose& now, Points* world_forces, bool whole);
   void find_deformation(const kernel::Step<Real>& now);
+  bool counts_are_of_bonds(const kernel::Step<Real>& now, std::size_t piece) const;
+  bool meets_none(const kernel::Step<Real>& now, std::size_t piece) const;
   void find_flow(const kernel::Step<Real>& now);
   void move_groups(const kernel::Step<Real>& now);
   StepSums run(kernel::Step<Real> now, const Pose& pose);
@@ -112,6 +114,7 @@ class ListStepper final : public Stepper {
   std::vector<kernel::AffineMotion<Real>> references_now_;
   WorldReactions rigid_reactions_;  ///< of the last probe: of supports, and as pins on bones
   bool counted_ = false;               ///< the neighbors of all particles, in the present order
+  std::vector<std::uint8_t> bonds_count_;  ///< by piece: its counts are of bonds alone
   std::vector<double> moved_;          ///< by pins, by piece, since the lists followed, m
   std::vector<Real> masses_;           ///< over mass_, padded at the end; empty: 1 each
   std::vector<std::uint8_t> careful_;  ///< by vector of particles; see kernel::Step
