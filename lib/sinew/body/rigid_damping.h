@@ -31,10 +31,9 @@ struct Reference {
 
   Kind kind = scene;
   std::int32_t which = 0;  ///< bone or support
-  /// Of a part that moves by itself: how many rigid motions nothing takes from it, 1 to 6; and its
-  /// particles that pins and supports hold, by their places among those.
+  /// Number of rigid motions that nothing takes from a part that moves by itself, 1 to 6.
   int freedom = 0;
-  std::vector<std::uint32_t> pins = {};
+  std::vector<std::uint32_t> pins = {};  ///< those of the world on that part
 };
 
 struct Share {

@@ -101,7 +101,7 @@ void serialize_state(Archive& archive, State& state) {
   archive("still", state.regrouping.still_since);
   archive("pressed", state.pressed);
   archive("pieces", state.pieces);
-  archive("broken_ends", state.broken_ends);
+  archive("broken", state.broken_ends);
   serialize_guard(archive, state);
 }
 

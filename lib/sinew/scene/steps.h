@@ -73,7 +73,7 @@ double strain_rate(const Prepared& prepared);
 /// that is pulled exceeds the yield stress by 2 %, but no faster than half of what exceeds it in a
 /// step; and at once in the static method.
 double creep_rate_of(const Prepared& prepared);
-/// By how much that stress exceeds the yield stress, of it; 0 where the rate is not automatic.
+/// Fraction of the yield stress by which that stress exceeds it; 0 where the rate is not automatic.
 double stress_above_yield(const Prepared& prepared);
 
 // The stepper that a run uses.

@@ -14,7 +14,7 @@ namespace sinew {
 namespace {
 
 constexpr double free_motion = 1e-9;   // of the largest constraint of a rigid motion
-constexpr double least_weight = 1e-3;  // less of a reference is none of it
+constexpr double min_weight = 1e-3;  // less of a reference is none of it
 constexpr double solved = 1e-4;        // of harmonic weights
 
 using Shares = std::vector<Share>;
@@ -121,7 +121,7 @@ void spread(const std::vector<std::uint32_t>& part, const NeighborLists& near,
     double sum = 0;
     for (std::size_t r = 0; r < used.size(); ++r) {
       const double weight = weights(k, static_cast<Eigen::Index>(r));
-      if (weight < least_weight) continue;
+      if (weight < min_weight) continue;
       own.push_back({used[r], weight});
       sum += weight;
     }
@@ -193,7 +193,7 @@ void keep(const std::vector<std::uint32_t>& holders, Shares& shares) {
   if (shares.empty() && !holders.empty()) shares = {{holders[0], 1}};
 }
 
-/// Of the shares of what holds each particle, and of the parts' own motions.
+/// Puts together the shares of what holds each particle and the parts' own motions.
 RigidDamping assembled(const Body& body, const HeldParticles& held, double rate,
                        const Parts& parts, std::vector<Shares> shares) {
   RigidDamping damping{rate, held.references(), {0}, {}};

@@ -8,10 +8,10 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
 #include <sinew/lists/particle_order.h>
+#include <sinew/lists/still_length.h>
 #include <sinew/material/laws.h>
 #include <sinew/stepping/detail/force_probe.h>
 #include <sinew/stepping/detail/law_functions.h>
-#include <sinew/world/references.h>
 
 namespace sinew {
 namespace {
@@ -46,7 +46,7 @@ ListStepper<Real>::ListStepper(std::shared_ptr<const Body> body, const Stepping&
       strain_(strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units())),
       surroundings_(body_, stepping, particles.mass, kernel_.kept),
       groups_(body_, particles.mass, kernel_),
-      references_(body_),
+      brakes_(body_),
       lists_(kernel_, body_->material, stepping.step) {
   find_slots();
   groups_.begin(layout_.now, layout_.units());
@@ -63,8 +63,7 @@ void ListStepper<Real>::find_slots() {
   lists_.let_pass(*body_, layout_.id());
   surroundings_.set_order(layout_.id());
   groups_.set_order(layout_.id(), bonds_, !strain_.empty());
-  references_.set_order(layout_.id());
-  find_rigid_slots();
+  brakes_.set_order(layout_.id());
   counted_ = false;
   masses_.assign(body_->density.empty() ? 0 : layout_.now.blocks() * block, 1);
   for (std::size_t k = 0; k < layout_.size() && !masses_.empty(); ++k)
@@ -74,40 +73,6 @@ void ListStepper<Real>::find_slots() {
 template <class Real>
 void ListStepper<Real>::place_bones(const Pose& pose) {
   bones_ = bones_now<Real>(*body_, pose, slots_.center, mass_, layout_.units());
-}
-
-template <class Real>
-void ListStepper<Real>::find_rigid_slots() {
-  if (references_.damping() != nullptr)
-    rigid_slots_ = rigid_slots<Real>(*references_.damping(), layout_.id());
-}
-
-/// What the body is damped relative to.
-template <class Real>
-void ListStepper<Real>::find_references(const TimedPose& now) {
-  if (references_.damping() == nullptr) return;
-  if (references_.follow_cracks(steps_, *this)) find_rigid_slots();
-  references_.find(now, layout_.now.arrays(), layout_.units());
-  const auto motions = references_.motions();
-  references_now_.resize(motions.size());
-  for (std::size_t r = 0; r < motions.size(); ++r)
-    references_now_[r] =
-        motion_now<Real>(motions[r], references_.damping()->references[r].kind, layout_.units());
-}
-
-template <class Real>
-void ListStepper<Real>::find_rigid_reactions() {
-  if (references_.damping() == nullptr) return;
-  rigid_reactions_.pins.assign(body_->skeleton.size(), {});
-  rigid_reactions_.supports.assign(body_->world ? body_->world->supports.size() : 0, {});
-  for (std::size_t k = 0; k < layout_.size(); ++k) {
-    const auto id = static_cast<std::size_t>(layout_.id()[k]);
-    const Vec3 p = layout_.now.position(k, layout_.units());
-    const Vec3 force = references_.force(id, mass_of(*body_, id, mass_), p,
-                                         layout_.now.velocity(k, layout_.units()));
-    add_reactions(*references_.damping(), id, p, force, references_.motions(),
-                  rigid_reactions_.pins, rigid_reactions_.supports);
-  }
 }
 
 template <class Real>
@@ -131,9 +96,7 @@ kernel::Step<Real> ListStepper<Real>::job() {
   step.lists = lists_.arrays();
   step.subpieces = lists_.subpieces();
   step.bindings = bindings();
-  if (references_.damping() != nullptr)
-    step.rigid = {real(references_.damping()->rate * T), rigid_slots_.first.data(),
-                  rigid_slots_.slots.data(), rigid_slots_.weights.data(), references_now_.data()};
+  step.rigid = brakes_.arrays(layout_.units());
   step.law = law_in<Real>(layout_.units(), pair, material.damping, mass_);
   step.bonds = bonds_.arrays(material, dt);
   strain_.put_into(step);
@@ -188,7 +151,7 @@ kernel::Step<Real> ListStepper<Real>::begin(const TimedPose& moment, Points* wor
   groups_.place(layout_.now, layout_.units());
   if (!whole) groups_.activate(layout_.now, layout_.units());
   place_bones(pose);
-  find_references(moment);
+  brakes_.find(steps_, moment, *this, layout_.now, layout_.units());
   surroundings_.begin(pose, time, layout_.now, layout_.units(), lists_, world_forces);
   if (has_muscles(*body_))
     strain_.fibers.set_activations(activations_at(body_->world->muscles, time));
@@ -211,18 +174,11 @@ void ListStepper<Real>::find_deformation(const kernel::Step<Real>& now) {
   }
   on_all_pieces([&](std::size_t first, std::size_t last) {
     for (std::size_t piece = first; piece < last; ++piece) {
-      if (counts_are_of_bonds(now, piece)) continue;
+      if (bonds_count_[piece] != 0 && !totals_[piece].broke && meets_none(now, piece)) continue;
       work_.count(counting, piece, piece + 1);
       bonds_count_[piece] = is_bonded(law_) && !groups_.any() && meets_none(now, piece) ? 1 : 0;
     }
   });
-}
-
-/// Whether the neighbors of a piece's particles are as they were counted: bonds alone.
-template <class Real>
-bool ListStepper<Real>::counts_are_of_bonds(const kernel::Step<Real>& now,
-                                            std::size_t piece) const {
-  return bonds_count_[piece] != 0 && !totals_[piece].broke && meets_none(now, piece);
 }
 
 /// Whether no particle of a piece may touch one that it is not bonded to.
@@ -287,7 +243,7 @@ template <class Real>
 WorldReactions ListStepper<Real>::reactions() const {
   WorldReactions all{surroundings_.reactions(), surroundings_.reactions_of_pins(),
                      surroundings_.support_reactions(), surroundings_.load_reactions()};
-  all.add(rigid_reactions_);
+  all.add(of_brakes_);
   return all;
 }
 
@@ -430,7 +386,7 @@ void ListStepper<Real>::save(SimulationState& state) {
   groups_.save(state);
   bonds_.save(state);
   surroundings_.save(state);
-  references_.save(state);
+  brakes_.save(state);
   state.kicked = kicked_;
   state.mean_when_sorted = mean_when_sorted_;
 }
@@ -446,7 +402,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   bonds_ = std::move(bonds);
   strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   groups_ = Groups<Real>(body_, mass_, kernel_);
-  references_.restore(state);
+  brakes_.restore(state);
   find_slots();
   groups_.restore(state);
   surroundings_.restore(state);
@@ -472,7 +428,7 @@ Balance ListStepper<Real>::evaluate(const TimedPose& moment, Forces& forces) {
   resize(forces, layout_.size(), body_->world != nullptr || surroundings_.any());
   on_all_pieces([&](std::size_t first, std::size_t last) { probe(first, last, forces); });
   groups_.constrain(forces, layout_.caller(), stepping_.gravity);
-  find_rigid_reactions();
+  of_brakes_ = brakes_.reactions(layout_.now, layout_.units(), mass_);
   const StepSums sums = sums_of_totals();
   Balance balance{sums.power, sums.lost, 0, 0, sums.world_power, 0, sums.held_kinetic};
   balance.contact_energy = surroundings_.sums().contact_energy;
@@ -503,27 +459,6 @@ void ListStepper<Real>::read(const TimedPose& now, Particles& particles) {
 
 // Where bonds may flow is found before a step, but only of pieces that may have come to it since
 // they were looked at, which most of a body has not.
-
-namespace {
-
-/// How far particles may move relative to each other, at least, before any of them yields.
-///
-/// With e = (d - l) d / l0^2 of each bond, the tensor T of body/solid.h is a mean of (e - mean e) n
-/// n^T. If the two particles of every bond move relative to each other by g at most, e changes by
-/// no more than ((d + |d - l|) g + g^2) / l0^2, and n n^T, of norm 1, by no more than 2.3 g / d,
-/// for g below d / 2. The shear is the norm of D = 15/2 dev T.
-template <class Real>
-double still_length(const kernel::FlowLook<Real>& look, double diameter, double longest) {
-  const auto spare = static_cast<double>(look.spare), reach = static_cast<double>(look.reach);
-  if (!(spare > 0) || !(reach < longest)) return 0;
-  const double nearest = std::min(std::sqrt(static_cast<double>(look.nearest2)), diameter);
-  const double most = std::min(nearest / 2, diameter / 10), l2 = diameter * diameter;
-  const double tension = static_cast<double>(look.tension) / l2;
-  const double slope = 7.5 * (2 * (reach + most) / l2 + 2 * tension * 2.3 / nearest);
-  return std::min(most, 0.99 * spare / slope);
-}
-
-}  // namespace
 
 template <class Real>
 void ListStepper<Real>::find_flow(const kernel::Step<Real>& now) {

@@ -16,10 +16,9 @@
 #include <sinew/lists/bone_slots.h>
 #include <sinew/lists/list_counts.h>
 #include <sinew/lists/particle_layout.h>
-#include <sinew/lists/rigid_slots.h>
 #include <sinew/lists/strain_lists.h>
 #include <sinew/lists/verlet_lists.h>
-#include <sinew/stepping/detail/rigid_references.h>
+#include <sinew/stepping/detail/rigid_brakes.h>
 #include <sinew/stepping/detail/surroundings.h>
 #include <sinew/stepping/stepper.h>
 
@@ -67,9 +66,6 @@ class ListStepper final : public Stepper {
   static constexpr std::size_t pieces_at_a_time = 4;  ///< where some take longer than others
 
   void place_bones(const Pose& pose);
-  void find_rigid_slots();
-  void find_references(const TimedPose& now);
-  void find_rigid_reactions();
   kernel::Bindings<Real> bindings() const;
   kernel::Step<Real> job();
   void on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run);
@@ -77,7 +73,6 @@ class ListStepper final : public Stepper {
   void follow_units();
   kernel::Step<Real> begin(const TimedPose& now, Points* world_forces, bool whole);
   void find_deformation(const kernel::Step<Real>& now);
-  bool counts_are_of_bonds(const kernel::Step<Real>& now, std::size_t piece) const;
   bool meets_none(const kernel::Step<Real>& now, std::size_t piece) const;
   void find_flow(const kernel::Step<Real>& now);
   void move_groups(const kernel::Step<Real>& now);
@@ -109,10 +104,8 @@ class ListStepper final : public Stepper {
   StrainLists<Real> strain_;
   Surroundings<Real> surroundings_;
   Groups<Real> groups_;
-  RigidReferences references_;
-  RigidSlots<Real> rigid_slots_;
-  std::vector<kernel::AffineMotion<Real>> references_now_;
-  WorldReactions rigid_reactions_;  ///< of the last probe: of supports, and as pins on bones
+  RigidBrakes<Real> brakes_;
+  WorldReactions of_brakes_;  ///< of the last probe
   bool counted_ = false;               ///< the neighbors of all particles, in the present order
   std::vector<std::uint8_t> bonds_count_;  ///< by piece: its counts are of bonds alone
   std::vector<double> moved_;          ///< by pins, by piece, since the lists followed, m

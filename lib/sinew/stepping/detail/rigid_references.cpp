@@ -18,7 +18,7 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t block_of_sums = 2048, blocks_per_task = 4;
-// By the step count alone, so that a resumed run looks when an uninterrupted one does.
+// The step count alone decides, so that a resumed run looks when an uninterrupted one does.
 constexpr std::int64_t steps_between_looks = 64;
 constexpr double no_inertia = 1e-12;  // of the largest: as of particles in a row
 
