@@ -57,8 +57,10 @@ Exit check(const std::string& scene, const std::string& picture, int modes,
   std::optional<Waiting> waiting(std::in_place, "preparing", progress_style(common.quiet));
   const Prepared prepared = prepare({read_scene(scene, common.overrides)});
   waiting.emplace("trying steps and modes", progress_style(common.quiet));
-  const SceneCheck check =
-      check_scene(prepared, run_folder(scene, "").path, modes > 0 ? modes : output.empty() ? 1 : 6);
+  const SceneCheck check = check_scene(prepared, run_folder(scene, "").path,
+                                       modes > 0        ? modes
+                                       : output.empty() ? 1
+                                                        : 6);
   waiting.reset();
   Results results;
   results.add(check.findings);
@@ -98,7 +100,5 @@ int main(int argc, char** argv) {
                  "a period")
             .type_name("FILE.pvd");
       },
-      [&](const Common& common) { 
-        return check(scene, picture, modes, output, common);
-      });
+      [&](const Common& common) { return check(scene, picture, modes, output, common); });
 }

@@ -55,6 +55,10 @@ void declare(OptionList& list, Options& options) {
       .type_name("LENGTH");
   list.add_flag("--linear", options.elements.linear,
                 "calculix: equilibrium in the shape at rest, for small displacements");
+  list.add("--frequency", options.elements.frequencies,
+           "calculix: so many lowest modes of the body as it is held, instead of equilibria")
+      .range(1, 1000)
+      .type_name("N");
 }
 
 /// Whether the frames lie in a folder, one file each.
@@ -146,8 +150,9 @@ void refuse_deck_options(const Options& options, const Common& common) {
   if (is_scene(options.folder))
     throw bad_input(Place{options.folder}, "is a scene: particles are exported from a run",
                     "name the folder of the run, or use sinew fill --to for the body at rest");
-  if (options.elements.size || options.elements.linear)
-    throw bad_input("--size and --linear are for finite elements", "add --to calculix");
+  if (options.elements.size || options.elements.linear || options.elements.frequencies > 0)
+    throw bad_input("--size, --linear and --frequency are for finite elements",
+                    "add --to calculix");
   if (!common.overrides.empty())
     throw bad_input("--set is for scenes", "leave it out, or add --to calculix");
 }
@@ -198,7 +203,8 @@ int main(int argc, char** argv) {
       {"sinew export out/box_bend --to xyz -o box_bend.xyz",
        "sinew export out/box_bend --to lammps --times 1 -o bent.data",
        "sinew export out/box_bend --to bgeo -o frames", "sinew export out/box_bend --to volume",
-       "sinew export beam.yaml --to calculix -o beam.inp"}};
+       "sinew export beam.yaml --to calculix -o beam.inp",
+       "sinew export beam.yaml --to calculix --frequency 6 -o modes.inp"}};
   return run_command(
       argc, argv, about, [&](OptionList& list) { declare(list, options); },
       [&](const Common& common) {

@@ -151,8 +151,8 @@ TEST_F(CheckpointFile, KeepsWhereAnIncrementBegan) {
 TEST_F(CheckpointFile, OfAnotherVersionMachineOrBodyIsNamed) {
   const std::string bytes = bytes_of(sample());
   std::string other = bytes;
-  other[12] = 10;
-  expect_refused(resealed(other), {"version 10, not 9"});
+  other[12] = 11;
+  expect_refused(resealed(other), {"version 11, not 10"});
   other = bytes;
   std::swap(other[8], other[11]);
   expect_refused(resealed(other), {"byte order"});

@@ -60,8 +60,7 @@ class Machine {
 
   /// Held by the world, with the damping ratio that it has there.
   Body body() const {
-    Body body =
-        make_body(settings, {}, skeleton_of(settings), test::particles_of(settings, rest));
+    Body body = make_body(settings, {}, skeleton_of(settings), test::particles_of(settings, rest));
     World made = world;
     hold(made, rest.size());
     body.world = std::make_shared<const World>(std::move(made));

@@ -190,6 +190,24 @@ probes:
         frd = self.ccx(self.deck("--linear", "--set", "solver.duration=0.3", "--set", "output.interval=0.3"))
         self.assert_one_line(sinew("measure", self.out, "--reference", frd), 2, "no step at the time of a frame")
 
+    @needs_ccx
+    def test_modes_are_those_of_check(self):
+        """Of a clamped bar of 11 layers, the two lowest pairs and the twist, beside Timoshenko's first."""
+        clamp = "supports: [{name: below, facing: [0, 0, -1]}]"
+        self.write(clamp)
+        deck = self.deck("--frequency", "6")
+        self.ccx(deck)
+        rows = [line.split() for line in deck.with_suffix(".dat").read_text().splitlines()]
+        elements = [float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()][:5]
+        found = json.loads(sinew("check", self.scene, "--set", "body.radius=0.0064", "--modes", "5", "-o",
+                                 self.folder / "modes.pvd", "--json", check=0).stdout)["modes"]
+        self.assertEqual([mode["held_by"] for mode in found], 5 * ["supports"])
+        for mode, expected in zip(found, elements):
+            self.assertAlmostEqual(mode["frequency"] / expected, 1, delta=0.05)
+        bending = 1.8751 ** 2 / (2 * math.pi * LENGTH ** 2) * math.sqrt(E * WIDE ** 2 / 12 / 1000)
+        self.assertAlmostEqual(elements[0] / bending, 1, delta=0.04)  # shear bends it as well
+        self.assertTrue((self.folder / "modes" / "modes_000011.vtu").is_file())
+
     def test_what_a_deck_cannot_hold_is_refused_by_name(self):
         for machine, parts in (
                 ("loads: [{name: weight, gravity: [0, 0, -1]}]", ["nothing holds the body", "supports"]),

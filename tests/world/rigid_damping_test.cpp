@@ -30,8 +30,8 @@ Particles moving_as(const Machine& machine, const Vec3& velocity, const Vec3& sp
   Vec3 center = Vec3::Zero();
   for (const Vec3& p : machine.rest) center += p / static_cast<double>(machine.rest.size());
   for (std::size_t i = 0; i < particles.size(); ++i)
-    particles.set_velocity(i, particles.velocity(i) + velocity +
-                                  spin.cross(particles.position(i) - center));
+    particles.set_velocity(
+        i, particles.velocity(i) + velocity + spin.cross(particles.position(i) - center));
   return particles;
 }
 
@@ -86,8 +86,7 @@ TEST(RigidDamping, OfFlatAndThinBodiesKeepsTheirMomentaToo) {
 TEST(RigidDamping, OfTwoBodiesIsOfEachAlone) {
   Machine machine = bar(9);
   const std::size_t each = machine.rest.size();
-  for (std::size_t i = 0; i < each; ++i)
-    machine.rest.push_back(machine.rest[i] + Vec3(0.5, 0, 0));
+  for (std::size_t i = 0; i < each; ++i) machine.rest.push_back(machine.rest[i] + Vec3(0.5, 0, 0));
   Particles particles = moving_as(machine, Vec3::Zero(), Vec3::Zero());
   for (std::size_t i = 0; i < each; ++i) particles.set_velocity(i, {0, 0.1, 0});
   Simulation simulation = machine.begin(machine.body(), particles);
@@ -121,9 +120,8 @@ TEST(RigidDamping, LetsABodySwingAboutAPoint) {
   Machine machine = bar(13, 0.5);
   machine.settings.material.young_modulus = 1e6;
   machine.settings.solver.gravity = {3, 0, -3};
-  machine.world.pins = {{ids_where(machine.rest, [](const Vec3& p) {
-    return p.z() < r && std::hypot(p.x(), p.y()) < r;
-  })[0]}};
+  machine.world.pins = {{ids_where(
+      machine.rest, [](const Vec3& p) { return p.z() < r && std::hypot(p.x(), p.y()) < r; })[0]}};
   Simulation simulation = machine.begin();
   const Energies start = simulation.energies();
   double most = 0;
@@ -141,8 +139,11 @@ TEST(RigidDamping, IsAnsweredByWhatItIsRelativeTo) {
     Machine machine = bar(13);
     machine.settings.solver.precision = precision;
     machine.world.supports = {{"clamp", machine.bottom()},
-                              {"grip", machine.top(), {true, true, true},
-                               moving({0, 0, machine.rest.back().z()}, {0.02, 0, 0.05}), {0, 0, machine.rest.back().z()}}};
+                              {"grip",
+                               machine.top(),
+                               {true, true, true},
+                               moving({0, 0, machine.rest.back().z()}, {0.02, 0, 0.05}),
+                               {0, 0, machine.rest.back().z()}}};
     Simulation simulation = machine.after(0.15);
     const Particles before = simulation.particles();
     const Vec3 force = sum_of(simulation.support_reactions());
@@ -165,8 +166,11 @@ TEST(RigidDamping, IsInTheBalanceOfEnergy) {
       if (cells) machine.settings = test::with_cells(machine.settings);
       const Vec3 pivot(0, 0, machine.rest.back().z());
       machine.world.supports = {{"clamp", machine.bottom()},
-                                {"grip", machine.top(), {true, true, true},
-                                 moving(pivot, {0.02, 0, 0.05}, {0, 0, 0.5}), pivot}};
+                                {"grip",
+                                 machine.top(),
+                                 {true, true, true},
+                                 moving(pivot, {0.02, 0, 0.05}, {0, 0, 0.5}),
+                                 pivot}};
       Simulation simulation = machine.begin();
       const double before = simulation.energies().stored();
       while (simulation.time() < 0.3) simulation.step();
@@ -181,9 +185,9 @@ TEST(RigidDamping, IsInTheBalanceOfEnergy) {
 TEST(RigidDamping, IsThatOfTheCellsInListsOfAllInstructions) {
   Machine machine = bar(9);
   const Vec3 pivot(0, 0, machine.rest.back().z());
-  machine.world.supports = {{"clamp", machine.bottom()},
-                            {"grip", machine.top(), {true, false, true},
-                             moving(pivot, {0.02, 0, 0.05}), pivot}};
+  machine.world.supports = {
+      {"clamp", machine.bottom()},
+      {"grip", machine.top(), {true, false, true}, moving(pivot, {0.02, 0, 0.05}), pivot}};
   Simulation lists = machine.after(0.1);
   machine.settings = test::with_cells(machine.settings);
   const Simulation cells = machine.after(0.1);
@@ -226,8 +230,8 @@ TEST(HeldBars, RingAsTheirModesSay) {
       const auto swing = [&] {
         double sum = 0;
         for (std::size_t i = 0; i < particles.size(); ++i)
-          sum += particles.velocity(i).x() * (simulation.particles().position(i).x() -
-                                              machine.rest[i].x());
+          sum += particles.velocity(i).x() *
+                 (simulation.particles().position(i).x() - machine.rest[i].x());
         return sum;
       };
       std::vector<double> peaks, times;
@@ -261,9 +265,10 @@ TEST(RigidDamping, OfABarThatIsPulledIsRelativeToBothEnds) {
   const auto motions = motions_of_holders(damping, body, 0, {});
   for (std::size_t i = 0; i < machine.rest.size(); ++i) {
     const Vec3 v = damping.velocity_at(i, machine.rest[i], motions);
-    EXPECT_NEAR(v.z(), 0.05 * (machine.rest[i].z() - machine.rest[0].z()) /
-                           (pivot.z() - machine.rest[0].z()),
-                0.03 * 0.05);
+    EXPECT_NEAR(
+        v.z(),
+        0.05 * (machine.rest[i].z() - machine.rest[0].z()) / (pivot.z() - machine.rest[0].z()),
+        0.03 * 0.05);
   }
 }
 

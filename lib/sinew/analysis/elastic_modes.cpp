@@ -278,7 +278,8 @@ ElasticModes modes_of(const Body& whole, const Holding& holding, bool by_volume,
   return found;
 }
 
-/// Values at `places` of those at points of a packing, `spacing` (m) apart: means, nearer ones more.
+/// Values at `places` of those at points of a packing, `spacing` (m) apart: means, nearer ones
+/// more.
 Points interpolated(const Points& values, const Points& at, double spacing, const Points& places) {
   Points all(places.size(), Vec3::Zero());
   const double range = 1.5 * spacing;

@@ -44,8 +44,8 @@ struct Body {
   /// Neighbors at rest, which whoever makes a body may leave with it; none: not there, or released
   /// before stepping, which needs them no more.
   SharedNeighbors neighbors = {};
-  std::shared_ptr<const World> world = {};        ///< none: nothing surrounds it
-  std::shared_ptr<const Grouping> grouping = {};  ///< none: all particles are free
+  std::shared_ptr<const World> world = {};                 ///< none: nothing surrounds it
+  std::shared_ptr<const Grouping> grouping = {};           ///< none: all particles are free
   std::shared_ptr<const RigidDamping> rigid_damping = {};  ///< none: there is none
 };
 

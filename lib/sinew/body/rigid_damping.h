@@ -56,8 +56,7 @@ struct RigidDamping {
   /// Sums the motions (one for each reference) of particle i at a place.
   Vec3 velocity_at(std::size_t i, const Vec3& p, std::span<const AffineMotion> motions) const {
     Vec3 sum = Vec3::Zero();
-    for (const Share& share : of(i))
-      sum += share.weight * motions[share.reference].velocity_at(p);
+    for (const Share& share : of(i)) sum += share.weight * motions[share.reference].velocity_at(p);
     return sum;
   }
 };

@@ -144,9 +144,10 @@ void refuse_unsupported(const Body& body) {
     throw bad_input(std::string("engines in other programs know no ") + what,
                     "step this body with the built-in engine");
   if (body.rigid_damping)
-    throw bad_input("engines in other programs know no damping relative to supports or to a body's "
-                    "own motion",
-                    "set material.damping_form to central, or step with the built-in engine");
+    throw bad_input(
+        "engines in other programs know no damping relative to supports or to a body's "
+        "own motion",
+        "set material.damping_form to central, or step with the built-in engine");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "SINEWCKP";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
-constexpr std::uint32_t format_version = 9;
+constexpr std::uint32_t format_version = 10;
 constexpr std::size_t name_size = 8;
 // Twice, within a frame or an increment of a load. Bonds: 18 neighbors at rest, from both sides;
 // branches of them; positions, velocities, order.

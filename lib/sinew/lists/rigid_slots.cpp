@@ -84,7 +84,6 @@ template RigidSlots<double> rigid_slots(const RigidDamping&, std::span<const std
 template RigidSlots<float> rigid_slots(const RigidDamping&, std::span<const std::int32_t>);
 template kernel::AffineMotion<double> motion_now(const AffineMotion&, Reference::Kind,
                                                  const Units&);
-template kernel::AffineMotion<float> motion_now(const AffineMotion&, Reference::Kind,
-                                                const Units&);
+template kernel::AffineMotion<float> motion_now(const AffineMotion&, Reference::Kind, const Units&);
 
 }  // namespace sinew

@@ -30,15 +30,16 @@ struct Refusal {
   const char *key, *what, *cure;
 };
 
-std::vector<Refusal> refusals(const Settings& settings) {
+std::vector<Refusal> refusals(const Settings& settings, bool modes) {
   constexpr const char* by_support = "replace them by supports and loads";
   const MaterialOptions& material = settings.material;
   const WorldSettings& world = settings.world;
   return {
-      {settings.solver.method != Method::static_equilibrium, "solver.method",
+      {!modes && settings.solver.method != Method::static_equilibrium, "solver.method",
        "finite elements are brought to equilibrium, and this scene moves in time",
-       "set solver.method to static"},
-      {settings.supports.empty(), "solver.method", "nothing holds the body", "add supports"},
+       "set solver.method to static, or give --frequency for its modes"},
+      {!modes && settings.supports.empty(), "solver.method", "nothing holds the body",
+       "add supports"},
       {!settings.bones.empty() || !settings.skeleton.file.empty(), "skeleton",
        "finite elements have no bones", "remove them, and hold the body by supports"},
       {!world.obstacles.empty(), "world.obstacles", "finite elements have no obstacles",
@@ -71,8 +72,8 @@ std::vector<Refusal> refusals(const Settings& settings) {
   };
 }
 
-void refuse_what_it_cannot_hold(const Settings& settings, const Surface& surface) {
-  for (const Refusal& one : refusals(settings))
+void refuse_what_it_cannot_hold(const Settings& settings, const Surface& surface, bool modes) {
+  for (const Refusal& one : refusals(settings, modes))
     if (one.holds) throw bad_input(settings.place(one.key), one.what, one.cure);
   if (!surface.closed())
     throw bad_input(settings.place("body.mesh"), "the mesh is open",
@@ -371,7 +372,7 @@ std::vector<double> step_times(const FrameTimes& frames, const std::vector<NodeS
 }  // namespace
 
 Deck deck_of(const Settings& settings, const Surface& surface, const ElementOptions& options) {
-  refuse_what_it_cannot_hold(settings, surface);
+  refuse_what_it_cannot_hold(settings, surface, options.frequencies > 0);
   const Triangles& skin = surface.triangles;
   Deck deck;
   deck.title = "sinew: " + std::filesystem::path(settings.body.mesh).filename().string();
@@ -385,6 +386,11 @@ Deck deck_of(const Settings& settings, const Surface& surface, const ElementOpti
         support_of(settings.supports[k], list_entry("supports", k), deck.mesh, parts));
   for (const NodeSupport& support : supports) deck.sets.push_back({support.name, support.nodes});
   const Holders holders = holders_of(settings, supports);
+  deck.frequencies = options.frequencies;
+  if (deck.frequencies > 0) {
+    deck.steps.push_back(step_at(0, deck.mesh.nodes, holders, {}));
+    return deck;
+  }
   const std::vector<NodeLoad> loads = loads_of(settings, deck.mesh, parts);
   for (const double time : step_times(frame_times(settings), supports)) {
     DeckStep step = step_at(time, deck.mesh.nodes, holders, loads);

@@ -201,7 +201,10 @@ void set_damping_ratio(const Settings& settings, Body& body) {
     damping = 0;
     return;
   }
-  if (body.material.damping_form != DampingForm::rigid) {
+  const bool with_bones = moves_with_bones(body);
+  // Groups of particles know the damping of bones, but no other relative to what holds them.
+  if (body.material.damping_form != DampingForm::rigid ||
+      (settings.hierarchy.enabled && !with_bones)) {
     damping = modes.damping_for(ratio);
     return;
   }
@@ -209,7 +212,7 @@ void set_damping_ratio(const Settings& settings, Body& body) {
   if (modes.damping_ratio(0) < ratio) damping = std::min(damping, modes.damping_for(ratio));
   const double rate = modes.rate_for(ratio, damping);
   if (rate == 0) return;
-  if (moves_with_bones(body)) {
+  if (with_bones) {
     for (BoneSprings& bone : body.springs)
       if (bone.stiffest() > 0) bone.damping += rate * body.material.mass;
   } else {

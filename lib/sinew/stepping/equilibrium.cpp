@@ -66,6 +66,7 @@ Body undamped(Body body) {
   body.material.damping = 0;
   body.material = long_term(body.material);
   for (BoneSprings& springs : body.springs) springs.damping = 0;
+  body.rigid_damping = nullptr;
   if (!body.world) return body;
   World world = *body.world;
   for (Obstacle& obstacle : world.obstacles) obstacle.motion = standing(obstacle.motion);

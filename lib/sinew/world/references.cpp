@@ -13,9 +13,9 @@
 namespace sinew {
 namespace {
 
-constexpr double free_motion = 1e-9;   // of the largest constraint of a rigid motion
-constexpr double min_weight = 1e-3;  // less of a reference is none of it
-constexpr double solved = 1e-4;        // of harmonic weights
+constexpr double free_motion = 1e-9;  // of the largest constraint of a rigid motion
+constexpr double min_weight = 1e-3;   // less of a reference is none of it
+constexpr double solved = 1e-3;       // of harmonic weights
 
 using Shares = std::vector<Share>;
 using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
@@ -101,13 +101,16 @@ void spread(const std::vector<std::uint32_t>& part, const NeighborLists& near,
   for (std::size_t k = 0; k < open.size(); ++k) row[open[k]] = static_cast<Eigen::Index>(k);
   const auto n = static_cast<Eigen::Index>(open.size());
   std::vector<Eigen::Triplet<double>> entries;
-  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(used.size()));
+  // All but the last, which is what they lack of 1.
+  const auto solved_for = static_cast<Eigen::Index>(used.size()) - 1;
+  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(n, solved_for);
   for (Eigen::Index k = 0; k < n; ++k) {
     const std::uint32_t i = open[static_cast<std::size_t>(k)];
     entries.emplace_back(k, k, static_cast<double>(near.of(i).size()));
     for (const std::uint32_t j : near.of(i)) {
       if (row[j] >= 0) entries.emplace_back(k, row[j], -1);
-      for (const Share& share : held.of(j)) given(k, column[share.reference]) += share.weight;
+      for (const Share& share : held.of(j))
+        if (column[share.reference] < solved_for) given(k, column[share.reference]) += share.weight;
     }
   }
   Eigen::SparseMatrix<double> laplacian(n, n);
@@ -120,7 +123,8 @@ void spread(const std::vector<std::uint32_t>& part, const NeighborLists& near,
     Shares& own = shares[open[static_cast<std::size_t>(k)]];
     double sum = 0;
     for (std::size_t r = 0; r < used.size(); ++r) {
-      const double weight = weights(k, static_cast<Eigen::Index>(r));
+      const auto c = static_cast<Eigen::Index>(r);
+      const double weight = c < solved_for ? weights(k, c) : 1 - weights.row(k).sum();
       if (weight < min_weight) continue;
       own.push_back({used[r], weight});
       sum += weight;
@@ -194,8 +198,8 @@ void keep(const std::vector<std::uint32_t>& holders, Shares& shares) {
 }
 
 /// Puts together the shares of what holds each particle and the parts' own motions.
-RigidDamping assembled(const Body& body, const HeldParticles& held, double rate,
-                       const Parts& parts, std::vector<Shares> shares) {
+RigidDamping assembled(const Body& body, const HeldParticles& held, double rate, const Parts& parts,
+                       std::vector<Shares> shares) {
   RigidDamping damping{rate, held.references(), {0}, {}};
   for (const auto& [label, part] : parts) {
     bool pulled = false;

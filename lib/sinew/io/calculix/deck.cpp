@@ -126,6 +126,14 @@ void write_pressures(NewFile& file, const std::vector<FacePressure>& pressures) 
   });
 }
 
+void write_modes(NewFile& file, const Deck& deck) {
+  std::vector<HeldNode> still = deck.steps.front().held;
+  for (HeldNode& node : still) node.displacement = 0;
+  write_text(file, "*STEP\n*FREQUENCY\n" + std::to_string(deck.frequencies) + '\n');
+  write_held(file, still);
+  write_text(file, "*NODE FILE\nU\n*END STEP\n");
+}
+
 void write_step(NewFile& file, const Deck& deck, std::size_t k) {
   write_text(file, step_head(deck, k));
   write_held(file, deck.steps[k].held);
@@ -147,7 +155,10 @@ void write_deck(const std::filesystem::path& path, const Deck& deck) {
   write_elements(file, deck.mesh);
   write_materials(file, deck.materials);
   write_sets(file, deck.sets);
-  for (std::size_t k = 0; k < deck.steps.size(); ++k) write_step(file, deck, k);
+  if (deck.frequencies > 0)
+    write_modes(file, deck);
+  else
+    for (std::size_t k = 0; k < deck.steps.size(); ++k) write_step(file, deck, k);
   file.finish();
 }
 

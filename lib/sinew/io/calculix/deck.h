@@ -60,6 +60,8 @@ struct Deck {
   std::vector<DeckSet> sets;
   std::vector<DeckStep> steps;      ///< of ascending times
   bool large_displacements = true;  ///< equilibrium in the deformed shape
+  int frequencies =
+      0;  ///< above 0: so many lowest modes of the body at rest, held as in its one step
 };
 
 /// Atomically. Hexahedra of 20 nodes are fully integrated (C3D20): with one across, a cantilever of

@@ -45,7 +45,9 @@ std::vector<std::string> costly_choices(const Prepared& prepared) {
           "set material.damping_form to rigid, or a smaller material.damping or damping_ratio");
   if (!body.stiffness.empty())
     without(
-        [](Limits& other) { other.stiffest = std::min(other.stiffest, stiffest_of_rough_surfaces); },
+        [](Limits& other) {
+          other.stiffest = std::min(other.stiffest, stiffest_of_rough_surfaces);
+        },
         "the stiffest part of the body, " +
             three_digits(*std::max_element(body.stiffness.begin(), body.stiffness.end())) +
             " times as stiff as its material,",

@@ -41,10 +41,10 @@ using Warnings = std::vector<std::string>;
 constexpr double largest_fall = 0.9e-3, smallest_barrier = 0.055;
 constexpr double fastest_bone =
     0.5;  // radii per step: faster bones pass neighbors instead of pushing them
-constexpr double largest_miss = 0.1;   // of a modulus
+constexpr double largest_miss = 0.1;        // of a modulus
 constexpr double largest_overstress = 0.1;  // of the yield stress
-constexpr double deepest_start = 0.1;  // radii inside an obstacle: more is visible as a kick
-constexpr double min_shift = 0.1;      // radii: a smaller jump of a bone is invisible
+constexpr double deepest_start = 0.1;       // radii inside an obstacle: more is visible as a kick
+constexpr double min_shift = 0.1;           // radii: a smaller jump of a bone is invisible
 // In square roots of a bone's cross-section: 0.6 is the rim of a round limb.
 constexpr double far_from_bone = 3;
 constexpr double largest_turn = 180;  // degrees of a bone about itself against its parent

@@ -171,8 +171,7 @@ void CellStepper::add_rigid_damping(const TimedPose& now) {
     const auto id = static_cast<std::size_t>(p.id[i]);
     const Vec3 at = p.position(i), force = references_.force(id, mass(i), at, p.velocity(i));
     forces_.damping[i] += force;
-    rigid_power_ +=
-        force.dot(references_.damping()->velocity_at(id, at, references_.motions()));
+    rigid_power_ += force.dot(references_.damping()->velocity_at(id, at, references_.motions()));
     add_reactions(*references_.damping(), id, at, force, references_.motions(), of_rigid_.pins,
                   of_rigid_.supports);
   }

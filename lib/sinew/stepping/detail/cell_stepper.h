@@ -80,8 +80,8 @@ class CellStepper final : public Stepper {
   std::vector<Reaction> of_supports_, of_loads_;
   RigidReferences references_;
   std::int64_t steps_ = 0;
-  WorldReactions of_rigid_;  ///< damping
-  double rigid_power_ = 0;   ///< of what that is relative to, W
+  WorldReactions of_rigid_;         ///< damping
+  double rigid_power_ = 0;          ///< of what that is relative to, W
   std::vector<std::size_t> held_;   ///< index of the particle of each pin of the world
   std::vector<bool> is_held_;       ///< empty without pins
   std::vector<std::size_t> place_;  ///< of a particle, by id; empty without a world

@@ -105,13 +105,13 @@ class ListStepper final : public Stepper {
   Surroundings<Real> surroundings_;
   Groups<Real> groups_;
   RigidBrakes<Real> brakes_;
-  WorldReactions of_brakes_;  ///< of the last probe
-  bool counted_ = false;               ///< the neighbors of all particles, in the present order
+  WorldReactions of_brakes_;               ///< of the last probe
+  bool counted_ = false;                   ///< the neighbors of all particles, in the present order
   std::vector<std::uint8_t> bonds_count_;  ///< by piece: its counts are of bonds alone
-  std::vector<double> moved_;          ///< by pins, by piece, since the lists followed, m
-  std::vector<Real> masses_;           ///< over mass_, padded at the end; empty: 1 each
-  std::vector<std::uint8_t> careful_;  ///< by vector of particles; see kernel::Step
-  std::vector<Real> inverse_count_;    ///< padded; empty unless damping acts pair by pair
+  std::vector<double> moved_;              ///< by pins, by piece, since the lists followed, m
+  std::vector<Real> masses_;               ///< over mass_, padded at the end; empty: 1 each
+  std::vector<std::uint8_t> careful_;      ///< by vector of particles; see kernel::Step
+  std::vector<Real> inverse_count_;        ///< padded; empty unless damping acts pair by pair
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step behind positions (velocity Verlet)

@@ -90,7 +90,8 @@ void RigidReferences::set_order(std::span<const std::int32_t> id) {
 /// Sums over particles of one part.
 template <class Real>
 RigidReferences::Sums RigidReferences::sums_of(const kernel::State<Real>& state, const Units& units,
-                                     const Vec3& about, std::size_t begin, std::size_t end) const {
+                                               const Vec3& about, std::size_t begin,
+                                               std::size_t end) const {
   Sums sums{};
   const double L = units.length, speed = units.length / units.time;
   const Vec3 shift = units.origin - about;
@@ -130,7 +131,7 @@ RigidReferences::Sums RigidReferences::sums_of(const kernel::State<Real>& state,
 
 /// The rigid motion, of those that the part is free to make, with its momenta.
 AffineMotion RigidReferences::motion_of(const Part& part, const Sums& sums, const Vec3& about,
-                                   std::span<const Vec3> pins) const {
+                                        std::span<const Vec3> pins) const {
   const double mass = sums[0];
   const Vec3 off = Vec3(sums[1], sums[2], sums[3]) / mass;  // of the center of mass
   const Vec3 p(sums[10], sums[11], sums[12]);
@@ -144,15 +145,14 @@ AffineMotion RigidReferences::motion_of(const Part& part, const Sums& sums, cons
   Eigen::Matrix<double, 6, 1> momenta;
   momenta << p, Vec3(sums[13], sums[14], sums[15]) - off.cross(p);
   const Vec3 center = about + off;
-  const auto free = free_motions(damping_->references[part.reference],
-                                 body_->world.get(), pins, center, arm);
+  const auto free =
+      free_motions(damping_->references[part.reference], body_->world.get(), pins, center, arm);
   // Lengths in arms, so that displacements and rotations are alike.
   Eigen::Matrix<double, 6, 1> scale;
   scale << 1, 1, 1, 1 / arm, 1 / arm, 1 / arm;
   const Eigen::MatrixXd basis = scale.cwiseInverse().asDiagonal() * free;
-  const auto [values, axes] =
-      eigendecomposition(basis.transpose() * scale.asDiagonal() * inertia * scale.asDiagonal() *
-                         basis);
+  const auto [values, axes] = eigendecomposition(basis.transpose() * scale.asDiagonal() * inertia *
+                                                 scale.asDiagonal() * basis);
   Eigen::VectorXd along = axes.transpose() * (basis.transpose() * scale.asDiagonal() * momenta);
   for (Eigen::Index k = 0; k < along.size(); ++k)
     along[k] = values[k] > no_inertia * mass ? along[k] / values[k] : 0;
