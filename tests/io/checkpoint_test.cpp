@@ -49,6 +49,8 @@ Checkpoint sample(bool single = false) {
   state.regrouping = {3, 0.25, {-1, 0.5}};
   state.limited = {{0, 2, 0, 0, 1}, 7, 0.125, {1, -2, 3}};
   state.guard = {{4, 2, 5, 8}, 8, true, 0.5, 0.75};
+  state.pieces = {0, 0, 2, 2, 2};
+  state.broken_ends = 6;
   return sample;
 }
 
@@ -167,8 +169,8 @@ TEST_F(CheckpointFile, OfAnOlderVersionIsRefusedWithTheSinewThatWroteIt) {
   Checkpoint older = sample();
   older.run.program = "0.4.2";
   std::string bytes = bytes_of(older);
-  bytes[12] = 8;
-  expect_refused(resealed(bytes), {"version 8, not 9", "sinew '0.4.2'", "--force"});
+  bytes[12] = 9;
+  expect_refused(resealed(bytes), {"version 9, not 10", "sinew '0.4.2'", "--force"});
 }
 
 TEST_F(CheckpointFile, ThatPromisesMoreThanThereIsTakesNoMemory) {
