@@ -173,7 +173,7 @@ def sections_of(whole):
     return sections
 
 
-CHECKPOINT_VERSION = 9
+CHECKPOINT_VERSION = 10
 
 
 def sealed(sections, magic=b"SINEWCKP", mark=0x01020304, version=CHECKPOINT_VERSION):
