@@ -201,6 +201,7 @@ void set_damping_ratio(const Settings& settings, Body& body) {
     damping = 0;
     return;
   }
+  if (modes.damping_ratio(0) >= ratio) return;  // bones give it: eq. 2 calms as by default
   const bool with_bones = moves_with_bones(body);
   // Groups of particles know the damping of bones, but no other relative to what holds them.
   if (body.material.damping_form != DampingForm::rigid ||
@@ -209,7 +210,7 @@ void set_damping_ratio(const Settings& settings, Body& body) {
     return;
   }
   // Eq. 2 calms, up to its default; what is lacking is damping relative to what holds the body.
-  if (modes.damping_ratio(0) < ratio) damping = std::min(damping, modes.damping_for(ratio));
+  damping = std::min(damping, modes.damping_for(ratio));
   const double rate = modes.rate_for(ratio, damping);
   if (rate == 0) return;
   if (with_bones) {
