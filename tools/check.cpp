@@ -49,7 +49,12 @@ void add_pictures(const Prepared& prepared, const std::vector<Intrusion>& meetin
 Exit check(const std::string& scene, const std::string& picture, int modes,
            const std::string& output, const Common& common) {
   refuse_mesh_as_scene(scene);
-  if (!output.empty()) refuse_output(output, {scene}, ".pvd");
+  if (!output.empty()) {
+    refuse_output(output, {scene}, ".pvd");
+    if (std::filesystem::exists(std::filesystem::path(output).parent_path() / "run.json"))
+      throw bad_input(Place{output}, "would lie among the series of a run, and may replace one",
+                      "name a file in another folder");
+  }
   if (!picture.empty()) {
     refuse_output(picture, {scene}, ".png");
     prepare_to_draw();
