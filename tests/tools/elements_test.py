@@ -207,6 +207,9 @@ probes:
         bending = 1.8751 ** 2 / (2 * math.pi * LENGTH ** 2) * math.sqrt(E * WIDE ** 2 / 12 / 1000)
         self.assertAlmostEqual(elements[0] / bending, 1, delta=0.04)  # shear bends it as well
         self.assertTrue((self.folder / "modes" / "modes_000011.vtu").is_file())
+        (self.folder / "run.json").write_text("{}")  # a run's series would be replaced
+        self.assert_one_line(sinew("check", self.scene, "-o", self.folder / "modes.pvd"), 2, "series of a run")
+        self.assertTrue((self.folder / "modes" / "modes_000011.vtu").is_file())
 
     def test_what_a_deck_cannot_hold_is_refused_by_name(self):
         for machine, parts in (
