@@ -167,6 +167,14 @@ class Chance {
         drawn.material.relaxation_times = {0.125, 3};
       }
     }
+    drawn.material.rayleigh.reset();
+    if (drawn.material.model != MaterialModel::paper && below(2) == 0) {
+      drawn.material.rayleigh = {{0.5, 0.25}};
+      drawn.material.damping = MaterialOptions().damping;
+      drawn.material.damping_ratio.reset();
+      drawn.material.damping_form = DampingForm::rigid;
+      drawn.hierarchy.enabled = false;
+    }
     if (drawn.material.modulus_direction) drawn.body.packing = Packing::fcc;
     drawn.material.isotropic.reset();
     drawn.material.a = 2;

@@ -201,6 +201,24 @@ TEST_F(SceneTest, WrongOverridesAreNamed) {
   EXPECT_TRUE(holds(message(small_scene, {"solver.duration="}), "is empty"));
 }
 
+TEST_F(SceneTest, RayleighsDampingStandsAlone) {
+  const auto complaint = [&](const std::string& keys, const std::string& more = "") {
+    return message(small_scene + "material: {" + keys + "}\n" + more);
+  };
+  const std::string bonded = "model: bonded, rayleigh: [2, 0.001]";
+  EXPECT_EQ(read(small_scene + "material: {" + bonded + "}\n").material.rayleigh,
+            (std::vector<double>{2, 0.001}));
+  EXPECT_FALSE(
+      read(small_scene + "material: {" + bonded + ", preset: muscle}\n").material.damping_ratio);
+  EXPECT_TRUE(holds(complaint("model: bonded, rayleigh: [2]"), "give [alpha, beta]"));
+  EXPECT_TRUE(holds(complaint("model: bonded, rayleigh: [-2, 0]"), ">= 0"));
+  EXPECT_TRUE(holds(complaint(bonded + ", damping_ratio: 0.1"), "remove one of the two"));
+  EXPECT_TRUE(holds(complaint(bonded + ", damping: 0.1"), "as material.damping does"));
+  EXPECT_TRUE(holds(complaint(bonded + ", damping_form: central"), "damping_form rigid"));
+  EXPECT_TRUE(holds(complaint("rayleigh: [2, 0]"), "damping_form rigid"));
+  EXPECT_TRUE(holds(complaint(bonded, "hierarchy: {enabled: true}\n"), "hierarchy"));
+}
+
 TEST_F(SceneTest, BranchesThatRelaxAreCheckedTogether) {
   const auto complaint = [&](const std::string& keys) {
     return message(small_scene + "material: {model: bonded, " + keys + "}\n");

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include <sinew/scene/damping.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/world.h>
@@ -64,7 +65,7 @@ class Machine {
     World made = world;
     hold(made, rest.size());
     body.world = std::make_shared<const World>(std::move(made));
-    set_damping_ratio(settings, body);
+    set_damping(settings, body);
     return body;
   }
 

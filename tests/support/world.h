@@ -8,6 +8,7 @@
 #include <sinew/analysis/time_step.h>
 #include <sinew/core/deformation.h>
 #include <sinew/core/particles.h>
+#include <sinew/scene/damping.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
 #include <sinew/settings/settings.h>
@@ -136,7 +137,7 @@ inline Particles particles_of(const Settings& settings, const Points& rest) {
 
 inline Body make_body(const Settings& settings, const Points& rest) {
   Body body = make_body(settings, {}, skeleton_of(settings), particles_of(settings, rest));
-  set_damping_ratio(settings, body);
+  set_damping(settings, body);
   return body;
 }
 

@@ -133,6 +133,23 @@ TEST(RigidDamping, LetsABodySwingAboutAPoint) {
   EXPECT_GT(most, 0);
 }
 
+/// alpha / 2 w + beta w / 2, of free bodies and of held ones.
+TEST(RigidDamping, IsRayleighsWhereItsConstantsAreGiven) {
+  for (const bool free : {true, false})
+    for (const auto& [alpha, beta] : {std::pair{3.0, 0.0}, {0.0, 2e-3}, {2.0, 1e-3}}) {
+      Machine machine = bar();
+      machine.settings.material.damping_ratio = {};
+      machine.settings.material.rayleigh = {{alpha, beta}};
+      if (!free) machine.world.supports = {{"bottom", machine.bottom()}};
+      const Body body = machine.body();
+      const ElasticModes modes = elastic_modes(body);
+      const double w = modes.frequency(), asked = alpha / (2 * w) + beta * w / 2;
+      const double rate = body.rigid_damping ? body.rigid_damping->rate : 0;
+      EXPECT_EQ(rate, alpha);
+      EXPECT_NEAR(modes.damping_ratio(body.material.damping, rate), asked, 0.02 * asked);
+    }
+}
+
 /// The momentum that damping takes, supports give.
 TEST(RigidDamping, IsAnsweredByWhatItIsRelativeTo) {
   for (const Precision precision : {binary64, binary32}) {

@@ -109,6 +109,7 @@ struct MaterialOptions {
   double damping = 0.5;
   std::optional<double> damping_ratio;
   std::optional<DampingForm> damping_form;  ///< by default rigid with bonds, else the paper's
+  std::optional<std::vector<double>> rayleigh;  ///< alpha, 1/s, and beta, s
   std::optional<double> breaking_strain;
   std::optional<double> fracture_energy;
   std::optional<double> yield_strain;

@@ -6,6 +6,7 @@
 
 #include <sinew/kernel/group_motion.h>
 #include <sinew/kernel/listing.h>
+#include <sinew/kernel/momenta.h>
 #include <sinew/kernel/moments.h>
 #include <sinew/kernel/pruning.h>
 #include <sinew/kernel/step.h>
@@ -89,6 +90,7 @@ constexpr Functions<typename L::Real> functions() {
   all.bound = bound_piece<lanes::Floats, typename L::Real>;
   all.list = list_two<lanes::Floats, typename L::Real>;
   all.prune = prune_list<L>;
+  all.momenta = sum_momenta<lanes::Doubles, typename L::Real>;
   all.survey = survey<L>;
   return all;
 }

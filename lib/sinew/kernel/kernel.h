@@ -340,6 +340,18 @@ struct PruneInput {
   Real range2;  ///< squared distance
 };
 
+/// Particles [begin, end) whose momenta are summed up.
+template <class Real>
+struct MomentaInput {
+  State<Real> state;
+  std::size_t begin, end;
+  double length, speed;  ///< units of the state
+  double shift[3];       ///< to be added to positions, in the unit of the sums
+  const double* mass;    ///< by particle; null: 1
+};
+/// Mass, first and second moments (xx yy zz yz zx xy), momentum and angular momentum.
+inline constexpr int momenta = 16;
+
 /// Differences and, unless null, the lanes that each is for.
 struct Candidates {
   std::int32_t* value;
@@ -406,6 +418,8 @@ struct Functions {
   /// Keeps the differences with a pair within range; returns how many.
   std::size_t (*prune)(const PruneInput<Real>&, std::size_t block, const Candidates& from,
                        const Candidates& kept);
+  /// Sums up the momenta; in double precision.
+  void (*momenta)(const MomentaInput<Real>&, double* sums);
   /// Surveys particles relative to `center`.
   Survey (*survey)(const SurveyInput<Real>&, const Coord<Real>* center);
 };

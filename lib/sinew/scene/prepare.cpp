@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <sinew/analysis/elastic_modes.h>
 #include <sinew/analysis/free_motion.h>
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
@@ -13,6 +12,7 @@
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/context.h>
+#include <sinew/scene/damping.h>
 #include <sinew/scene/first_pose.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/groups.h>
@@ -21,7 +21,6 @@
 #include <sinew/scene/rigid_parts.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
-#include <sinew/world/references.h>
 
 namespace sinew {
 
@@ -105,18 +104,6 @@ bool is_static(const Settings& settings) {
 
 constexpr double max_steps = 2e9;  // files count them in 32 bits
 
-/// Whether bones pull every particle that pins do not hold.
-bool moves_with_bones(const Body& body) {
-  std::vector<bool> moves(body.rest.size());
-  for (std::size_t i = 0; i < moves.size(); ++i)
-    for (const Influence& by : body.binding.of(i))
-      moves[i] = moves[i] || body.springs[static_cast<std::size_t>(by.bone)].stiffest() > 0;
-  if (body.world)
-    for (const Pinned& pin : body.world->pins)
-      moves[pin.particle] = moves[pin.particle] || pin.bone != no_bone;
-  return std::find(moves.begin(), moves.end(), false) == moves.end();
-}
-
 /// Returns warnings only once for a rig that gives both bones and motion.
 std::vector<std::string> warnings_of(const SceneFiles& files) {
   std::vector<std::string> warnings = files.skeleton.rig.warnings;
@@ -185,40 +172,6 @@ Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skele
   body.springs = bone_springs(settings.binding, body.material, body.binding, body.skeleton);
   body.pass_through = named_passing(settings, body.skeleton);
   return body;
-}
-
-void set_damping_ratio(const Settings& settings, Body& body) {
-  if (!settings.material.damping_ratio || is_static(settings)) return;
-  const double ratio = *settings.material.damping_ratio;
-  const ElasticModes modes = elastic_modes(body);
-  if (modes.empty())
-    throw bad_input(settings.place("material.damping_ratio"),
-                    "the lowest elastic mode of this body cannot be found: it has none, or over "
-                    "200,000 particles in too few layers",
-                    "give material.damping instead");
-  double& damping = body.material.damping;
-  if (!(ratio > 0)) {
-    damping = 0;
-    return;
-  }
-  if (modes.damping_ratio(0) >= ratio) return;  // bones give it: eq. 2 calms as by default
-  const bool with_bones = moves_with_bones(body);
-  // Groups of particles know the damping of bones, but no other relative to what holds them.
-  if (body.material.damping_form != DampingForm::rigid ||
-      (settings.hierarchy.enabled && !with_bones)) {
-    damping = modes.damping_for(ratio);
-    return;
-  }
-  // Eq. 2 calms, up to its default; what is lacking is damping relative to what holds the body.
-  damping = std::min(damping, modes.damping_for(ratio));
-  const double rate = modes.rate_for(ratio, damping);
-  if (rate == 0) return;
-  if (with_bones) {
-    for (BoneSprings& bone : body.springs)
-      if (bone.stiffest() > 0) bone.damping += rate * body.material.mass;
-  } else {
-    body.rigid_damping = std::make_shared<const RigidDamping>(rigid_damping_of(body, rate));
-  }
 }
 
 namespace {
@@ -293,7 +246,7 @@ void bind(const SceneFiles& files, const ForceLaw* law, Prepared& prepared) {
   for (const std::string& warning : warnings_of(files)) prepared.file_warnings.push_back(warning);
   prepared.joint_zone = settings.binding.joint_zone;
   prepared.weights_given = settings.binding.method == BindMethod::file;
-  set_damping_ratio(settings, prepared.body);
+  set_damping(settings, prepared.body);
   let_pass(prepared);
   set_groups(prepared);
   if (!is_static(settings)) return;

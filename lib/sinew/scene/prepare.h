@@ -50,10 +50,6 @@ LocalMaterial local_material(const BodyFile& body);
 Body make_body(const Settings& settings, const SceneFiles& files, Skeleton skeleton,
                const Particles& particles, LocalMaterial local = {}, const ForceLaw* law = nullptr);
 
-/// Gives a body that is held as it will be the damping ratio that the settings ask for, if they do:
-/// by eq. 2, and in the form rigid by damping relative to what holds it; bones may give more.
-void set_damping_ratio(const Settings& settings, Body& body);
-
 /// What is prepared.
 struct Scene {
   Settings settings;

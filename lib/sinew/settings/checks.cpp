@@ -115,9 +115,33 @@ void check_relaxation(const Settings& settings) {
                     "give shares whose sum is below 1");
 }
 
+void check_rayleigh(const Settings& settings) {
+  const auto& given = settings.material.rayleigh;
+  if (!given) return;
+  const Place place = settings.place("material.rayleigh");
+  if (given->size() != 2)
+    throw bad_input(place, "Rayleigh's damping has two constants",
+                    "give [alpha, beta] in 1/s and s");
+  const MaterialOptions& material = settings.material;
+  const bool ratio = material.damping_ratio.has_value();
+  if (ratio || material.damping != MaterialOptions().damping)
+    throw bad_input(place,
+                    std::string("material.rayleigh sets the damping, as ") +
+                        (ratio ? "material.damping_ratio does" : "material.damping does"),
+                    "remove one of the two");
+  const DampingForm by_default =
+      has_bonds(material.model) ? DampingForm::rigid : DampingForm::paper;
+  if (material.damping_form.value_or(by_default) != DampingForm::rigid ||
+      settings.hierarchy.enabled)
+    throw bad_input(place, "material.rayleigh is for damping_form rigid, without hierarchy",
+                    "set material.model to bonded or bonded_volume, and remove damping_form and "
+                    "hierarchy");
+}
+
 void check_material(const Settings& settings) {
   check_bodies(settings);
   check_relaxation(settings);
+  check_rayleigh(settings);
   const MaterialOptions& material = settings.material;
   if (!(material.a < material.b))
     throw bad_input(place_of(settings, "material.a", "material.b"),
@@ -296,7 +320,8 @@ void apply_preset(Settings& settings) {
   if (free("material.density")) material.density = preset->density;
   if (free("material.young_modulus")) material.young_modulus = preset->young_modulus;
   if (free("material.poisson_ratio")) material.poisson_ratio = preset->poisson_ratio;
-  if (free("material.damping_ratio")) material.damping_ratio = preset->damping_ratio;
+  if (free("material.damping_ratio") && !material.rayleigh)
+    material.damping_ratio = preset->damping_ratio;
   if (preset->yield_strain && free("material.model")) material.model = MaterialModel::bonded;
   if (has_bonds(material.model) && free("material.yield_strain"))
     material.yield_strain = preset->yield_strain;

@@ -155,6 +155,13 @@ std::vector<Field<Settings>> make_damping_and_strength() {
           "conserves angular momentum; rigid: central, and what damping_ratio lacks is damping "
           "relative to what holds the body, or to its motion as a rigid body, which takes no "
           "shorter steps; auto: rigid for bonded models without hierarchy, else paper"),
+      field<S>(
+          "material", "rayleigh", SINEW_AT(S, material.rayleigh), "1/s, s",
+          "[alpha, beta] of Rayleigh's damping, instead of damping and damping_ratio: a mode of "
+          "angular frequency w has the ratio alpha / (2 w) + beta w / 2; alpha acts on motion "
+          "relative to what holds the body, beta is reached in the lowest mode; for damping_form "
+          "rigid",
+          not_negative, "none"),
       field<S>("material", "breaking_strain", SINEW_AT(S, material.breaking_strain), "",
                "strain at which a bond breaks, in bonded models", positive, "none"),
       field<S>("material", "fracture_energy", SINEW_AT(S, material.fracture_energy), "J/m^2",

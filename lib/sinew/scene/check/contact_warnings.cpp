@@ -27,10 +27,10 @@ using Particle = std::uint32_t;
 constexpr std::size_t max_that_touch = 12;
 
 /// Pairs of bones, and the particles of theirs that touch.
-class Touching {
+class TouchedParts {
  public:
   /// Each particle that is added stands for so many.
-  explicit Touching(std::size_t each = 1) : each_(each) {}
+  explicit TouchedParts(std::size_t each = 1) : each_(each) {}
 
   void add(int a, int b, Particle i, Particle j) {
     std::vector<Particle>& all = pairs_[std::minmax(a, b)];
@@ -171,7 +171,7 @@ void warn_of_gaps(const Body& body, const Surface& surface, const NeighborLists&
   std::size_t each = thin_out(pairs, examined);
   std::erase_if(pairs, [&](const auto& pair) { return !contacts.across(pair.first, pair.second); });
   each *= thin_out(pairs, followed);
-  Touching touching(each);
+  TouchedParts touching(each);
   for (const auto& [i, j] : pairs)
     if (!contacts.linked(i, j)) touching.add(body.binding.bone(i), body.binding.bone(j), i, j);
   touching.warn(body.skeleton,
@@ -213,13 +213,13 @@ Vec3 carried_by_bones(const Body& body, const Pose& pose, Particle i) {
 }
 
 /// Limbs that meet as the bones carry them.
-Touching meeting(const Body& body, const Pose& pose, const std::vector<Particle>& outer) {
+TouchedParts meeting(const Body& body, const Pose& pose, const std::vector<Particle>& outer) {
   constexpr double apart = 1.5;  // ranges of the attraction, at rest
   const double range = body.material.pair.b;
   Points now;
   for (const Particle i : outer) now.push_back(carried_by_bones(body, pose, i));
   const NeighborLists near = neighbors_within(now, range);
-  Touching touching;
+  TouchedParts touching;
   for (std::size_t k = 0; k < outer.size(); ++k)
     for (const Particle other : near.of(k)) {
       const Particle i = outer[k], j = outer[other];

@@ -45,13 +45,6 @@ Points LoadIncrements::positions(Stepper& stepper) {
   return positions_by_id(particles_);
 }
 
-Points LoadIncrements::by_id(const Points& positions) const {
-  Points sorted(positions.size());
-  for (std::size_t k = 0; k < positions.size(); ++k)
-    sorted[static_cast<std::size_t>(particles_.id[k])] = positions[k];
-  return sorted;
-}
-
 void LoadIncrements::begin(Stepper& stepper) {
   strain_.begin(positions(stepper));
   begun_.reset();
@@ -117,12 +110,12 @@ bool LoadIncrements::predict(Stepper& stepper) {
   const auto found = newton_->predict(stepper, moment_at_(from),
                                       moment_at_(from + small_part * (to - from)), small_part);
   if (!found) return false;
-  const IncrementStrain strained = strain_.since(by_id(found->positions));
+  stepper.place(found->positions, Stepper::Move::far);
+  const IncrementStrain strained = strain_.since(positions(stepper));  // held ones at its end
   if (relaxation_.is_too_large(strained, strain_.inverted_at_begin())) {
     go_back(stepper, relaxation_.shorter(begun_->relaxation, strained.strain));
     return true;
   }
-  stepper.place(found->positions, Stepper::Move::far);
   relaxation_.count_solution(found->negative);
   return true;
 }

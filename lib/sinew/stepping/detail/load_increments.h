@@ -40,7 +40,6 @@ class LoadIncrements {
  private:
   TimedPose moment() const { return moment_at_(relaxation_.time()); }
   Points positions(Stepper& stepper);
-  Points by_id(const Points& positions) const;
   void begin(Stepper& stepper);
   void go_back(Stepper& stepper, const RelaxationState& to);
   void try_otherwise(Stepper& stepper);

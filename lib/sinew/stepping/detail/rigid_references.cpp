@@ -22,30 +22,10 @@ constexpr std::size_t block_of_sums = 2048, blocks_per_task = 4;
 constexpr std::int64_t steps_between_looks = 64;
 constexpr double no_inertia = 1e-12;  // of the largest: as of particles in a row
 
-using Four = Eigen::Array4d;
-
-template <class Coord>
-Four four(const Coord* from) {
-  return Eigen::Map<const Eigen::Array<Coord, 4, 1>>(from).template cast<double>();
-}
-
 template <class Real>
 Vec3 place(const kernel::State<Real>& state, const Units& units, std::size_t k) {
   const auto coordinate = [&](int axis) { return static_cast<double>(state.x[axis][k]); };
   return units.origin + units.length * Vec3(coordinate(0), coordinate(1), coordinate(2));
-}
-
-/// Adds a term for each of the sums, of one particle or of four.
-template <class Value, class All>
-void add_terms(const std::array<Value, 3>& x, const std::array<Value, 3>& p, All& sums) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
-    sums[1 + k] += x[k];
-    sums[4 + k] += x[k] * x[k];
-    sums[7 + k] += x[l] * x[m];
-    sums[10 + k] += p[k];
-    sums[13 + k] += x[l] * p[m] - x[m] * p[l];
-  }
 }
 
 }  // namespace
@@ -56,7 +36,7 @@ RigidReferences::RigidReferences(std::shared_ptr<const Body> body) : body_(std::
 
 void RigidReferences::set_damping(std::shared_ptr<const RigidDamping> damping) {
   damping_ = std::move(damping);
-  alike_ = damping_ && damping_->shares.size() == body_->rest.size() && body_->density.empty();
+  alone_ = damping_ && damping_->shares.size() == body_->rest.size();
 }
 
 void RigidReferences::set_order(std::span<const std::int32_t> id) {
@@ -68,6 +48,10 @@ void RigidReferences::set_order(std::span<const std::int32_t> id) {
   const auto moves_itself = [](const Reference& one) { return one.kind == Reference::itself; };
   if (std::none_of(damping.references.begin(), damping.references.end(), moves_itself)) return;
   part_.assign(id.size(), none);
+  mass_.clear();
+  if (!body_->density.empty())
+    for (const std::int32_t i : id)
+      mass_.push_back(mass_of(*body_, static_cast<std::size_t>(i), 1));
   std::vector<std::uint32_t> part_of(damping.references.size(), none);
   std::vector<std::size_t> place_of(body_->rest.size());
   for (std::size_t k = 0; k < id.size(); ++k) {
@@ -87,46 +71,51 @@ void RigidReferences::set_order(std::span<const std::int32_t> id) {
       part.pins.push_back(place_of[body_->world->pins[pin].particle]);
 }
 
-/// Sums over particles of one part.
+/// Sums over particles of one part. Holders' motions are taken off before.
 template <class Real>
 RigidReferences::Sums RigidReferences::sums_of(const kernel::State<Real>& state, const Units& units,
                                                const Vec3& about, std::size_t begin,
                                                std::size_t end) const {
-  Sums sums{};
-  const double L = units.length, speed = units.length / units.time;
-  const Vec3 shift = units.origin - about;
-  std::size_t k = begin;
-  if (alike_) {
-    std::array<Four, 16> fours;
-    fours.fill(Four::Zero());
-    for (; k + 4 <= end; k += 4) {
-      std::array<Four, 3> x, p;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        x[axis] = four(state.x[axis] + k) * L + shift[static_cast<int>(axis)];
-        p[axis] = four(state.v[axis] + k) * speed;
-      }
-      add_terms(x, p, fours);
-    }
-    for (std::size_t n = 1; n < sums.size(); ++n)
-      sums[n] = (fours[n][0] + fours[n][1]) + (fours[n][2] + fours[n][3]);
-    sums[0] = static_cast<double>(k - begin);
+  const auto function = [&]<class R>(const kernel::MomentaInput<R>& input) {
+    Sums sums;
+    kernel::functions_of<R>(instructions_).momenta(input, sums.data());
+    return sums;
+  };
+  const double* mass = mass_.empty() ? nullptr : mass_.data();
+  if (alone_) {
+    const Vec3 shift = units.origin - about;
+    return function(kernel::MomentaInput<Real>{state,
+                                               begin,
+                                               end,
+                                               units.length,
+                                               units.length / units.time,
+                                               {shift[0], shift[1], shift[2]},
+                                               mass});
   }
-  for (; k < end; ++k) {
-    const auto id = static_cast<std::size_t>(id_[k]);
+  const std::size_t count = end - begin;
+  std::array<std::array<double, block_of_sums>, 6> rows;
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t k = begin + n;
     const Vec3 at = place(state, units, k);
-    Vec3 v;
-    for (int axis = 0; axis < 3; ++axis) v[axis] = static_cast<double>(state.v[axis][k]) * speed;
-    for (const Share& share : damping_->of(id))
+    Vec3 v(static_cast<double>(state.v[0][k]), static_cast<double>(state.v[1][k]),
+           static_cast<double>(state.v[2][k]));
+    v *= units.length / units.time;
+    for (const Share& share : damping_->of(static_cast<std::size_t>(id_[k])))
       if (share.reference != parts_[part_[k]].reference)
         v -= share.weight * motions_[share.reference].velocity_at(at);
-    const double mass = mass_of(*body_, id, 1);
-    const Vec3 x = at - about;
-    Sums one{};
-    add_terms(std::array{x[0], x[1], x[2]}, std::array{v[0], v[1], v[2]}, one);
-    one[0] = 1;
-    for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += mass * one[n];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      rows[axis][n] = at[static_cast<int>(axis)] - about[static_cast<int>(axis)];
+      rows[3 + axis][n] = v[static_cast<int>(axis)];
+    }
   }
-  return sums;
+  return function(kernel::MomentaInput<double>{{{rows[0].data(), rows[1].data(), rows[2].data()},
+                                                {rows[3].data(), rows[4].data(), rows[5].data()}},
+                                               0,
+                                               count,
+                                               1,
+                                               1,
+                                               {0, 0, 0},
+                                               mass == nullptr ? nullptr : mass + begin});
 }
 
 /// The rigid motion, of those that the part is free to make, with its momenta.

@@ -54,8 +54,7 @@ class RigidReferences {
     std::size_t first;              ///< of its particles, about which sums are
     std::vector<std::size_t> pins;  ///< its particles that pins and supports hold
   };
-  /// Mass, first and second moments (xx yy zz yz zx xy), momentum and angular momentum.
-  using Sums = std::array<double, 16>;
+  using Sums = std::array<double, kernel::momenta>;
   struct Run {
     std::uint32_t part;
     Sums sums;
@@ -71,9 +70,11 @@ class RigidReferences {
   static constexpr std::uint32_t none = UINT32_MAX;
   std::shared_ptr<const Body> body_;
   std::shared_ptr<const RigidDamping> damping_;
-  bool alike_ = false;  ///< nothing holds any particle, and all masses are the same
+  kernel::InstructionSet instructions_ = kernel::best_instruction_set();
+  bool alone_ = false;  ///< nothing holds any particle
   std::vector<Part> parts_;
   std::vector<std::int32_t> id_;
+  std::vector<double> mass_;          ///< in the order; empty: all alike
   std::vector<std::uint32_t> part_;   ///< of each particle, in the order; empty: of none
   SharedNeighbors near_;              ///< at rest, once bonds have broken
   std::vector<std::uint32_t> piece_;  ///< label by id, once bonds have broken
