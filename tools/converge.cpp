@@ -9,9 +9,6 @@
 
 #include <sinew/core/text.h>
 #include <sinew/run/run_folder.h>
-#include <sinew/run/run_record.h>
-#include <sinew/settings/read_scene.h>
-#include <sinew/settings/write_scene.h>
 #include <sinew/study/compare_runs.h>
 #include <sinew/study/study_files.h>
 #include "command/child.h"
@@ -76,26 +73,6 @@ std::vector<std::string> words_for(const Options& options, const Common& common,
   return words;
 }
 
-/// Whether the run in the folder is finished. Refuses one of another scene, whose results would
-/// pass for those of this one.
-bool is_finished(const Options& options, const Common& common, const fs::path& folder,
-                 double radius) {
-  if (status_of({folder}) != "finished") return false;
-  std::vector<Override> overrides = common.overrides;
-  overrides.push_back({"body.radius", number_text(radius), {}});
-  const Settings wanted = read_scene(options.scene, overrides);
-  const Settings found = read_scene(RunFolder{folder}.scene());
-  const auto differing = differing_settings({&found, &wanted});
-  if (resolved_scene(found, folder) != resolved_scene(wanted, folder)) {
-    const std::string what = differing.empty() ? "its motion or its lists"
-                                               : std::string(differing.front().section) + '.' +
-                                                     std::string(differing.front().name);
-    throw bad_input(Place{folder.string()}, "holds a run of another scene: " + what + " differs",
-                    "replace it with --force, or choose another folder with -o");
-  }
-  return true;
-}
-
 void refuse_used(const Options& options, const fs::path& study) {
   if (options.force || options.resume) return;
   for (const double radius : options.radii)
@@ -111,7 +88,6 @@ Exit run_all(const Options& options, const Common& common, const fs::path& study
   std::sort(radii.rbegin(), radii.rend());
   for (const double radius : radii) {
     const fs::path folder = folder_of(study, radius);
-    if (options.resume && is_finished(options, common, folder, radius)) continue;
     say(common, "radius " + number_text(radius) + " m:");
     const ChildEnd end = run_child("simulate", words_for(options, common, folder, radius));
     const Exit exit = exit_of("simulate", end);

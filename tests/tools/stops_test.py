@@ -170,6 +170,41 @@ class Stops(SmallRun):
         done = self.simulate(*words, "--resume", "--set", "body.count=500", check=2)
         self.assert_one_line(done, 2, "section body has 'radius: 0.025'", "'radius: auto'", "--force", "with -o")
 
+    def test_a_finished_run_is_of_the_scene_it_was_run_from(self):
+        """Else the results of one scene would pass for those of another."""
+        mesh, box = self.folder / "mine.obj", (SOURCE / "data/meshes/box.obj").read_text()
+        mesh.write_text(box)
+        words = ["--set", f"body.mesh={mesh}", "--set", "solver.duration=0.05", "--set", "output.interval=0.05"]
+        self.simulate(*words)
+        before = (self.out / "run.json").read_bytes()
+        self.assertIn("finished already", self.simulate(*words, "--resume", "--set", "solver.wall_time=9").stderr)
+        for key, value in {"material.young_modulus": 1e6, "material.model": "bonded", "body.radius": 0.03,
+                           "solver.duration": 9, "output.interval": 0.01,
+                           "body.mesh": SOURCE / "data/meshes/arm.ply"}.items():
+            for command in ("simulate", "run"):
+                done = sinew(command, self.scene, "-o", self.out, *words, "--resume", "--set", f"{key}={value}")
+                section, name = key.split(".")
+                self.assert_one_line(done, 2, f"section {section} has '{name}: ", "--force", "with -o")
+        self.scene.write_text(self.scene.read_text().replace("angle: 30", "angle: 31"))
+        self.assert_one_line(self.simulate(*words, "--resume", check=2), 2, "section motion", "angle: 31")
+        self.scene.write_text(self.scene.read_text().replace("angle: 31", "angle: 30"))
+        mesh.write_text(box.replace("v -0.0777", "v -0.0767", 1))
+        self.assert_one_line(self.simulate(*words, "--resume", check=2), 2, "the mesh, or what fills", "--force")
+        mesh.write_text(box + "# another text, the same mesh\n")
+        self.simulate(*words, "--resume")
+        self.assertEqual((self.out / "run.json").read_bytes(), before)
+        self.assertFalse((self.out / "report.html").exists())
+
+    def test_a_finished_run_is_of_the_clip_it_was_run_with(self):
+        clip, bend = self.folder / "clip.bvh", (SOURCE / "data/motions/box_bend.bvh").read_text()
+        clip.write_text(bend)
+        self.scene.write_text(f"body: {{mesh: {SOURCE / 'data/meshes/box.obj'}, radius: 0.03}}\n"
+                              "skeleton: {file: clip.bvh}\nmotion: {file: clip.bvh}\nsolver: {duration: 0.05}\n")
+        self.simulate()
+        self.assertIn("finished already", self.simulate("--resume").stderr)
+        clip.write_text(re.sub("Frame Time:.*", "Frame Time: 0.5", bend))
+        self.assert_one_line(self.simulate("--resume", check=2), 2, "the motion of its bones", "--force")
+
     def test_lock_names_its_process_and_is_taken_over_when_that_died(self):
         words = ["simulate", self.scene, "-o", self.out, "--set", "solver.duration=1000"]
         with subprocess.Popen([BIN / "sinew", *words], stderr=subprocess.DEVNULL) as child:

@@ -31,17 +31,13 @@ void say(const SimulateOptions& options, const std::string& line) {
   if (options.message) options.message(line);
 }
 
-/// Whether there is anything to do; refuses to overwrite a run unasked.
-bool may_begin(const RunFolder& folder, const SimulateOptions& options) {
-  if (!folder.used()) return true;
-  const std::string status = status_of(folder);
-  if (options.force) return true;
+/// Whether the run that is in the folder is to be continued. Refuses to overwrite one unasked.
+bool resumes(const RunFolder& folder, const SimulateOptions& options) {
+  if (!folder.used() || options.force) return false;
   if (!options.resume)
     throw bad_input(Place{folder.path.string()}, "holds a run already",
                     "replace it with --force, or choose another folder with -o");
-  if (status == "finished")
-    say(options, "the run in " + folder.path.string() + " is finished already");
-  return status != "finished";
+  return true;
 }
 
 /// How the run advances through time.
@@ -419,17 +415,14 @@ Prepared prepare_in(const Settings& scene, const RunFolder& folder) {
   if (!there && !folder.used() && std::filesystem::exists(folder.body()))
     throw bad_input(Place{folder.body().string()}, "is there, and not the body of this scene",
                     "choose another folder with -o, or move the file away");
-  Prepared prepared = prepare({scene, std::move(there)});
-  check_space(folder.path, needs_of(prepared), size_of_old_run(folder));
-  return prepared;
+  return prepare({scene, std::move(there)});
 }
 
-/// The state to continue with, when that is asked for and there is one.
+/// The state to continue with, where there is one.
 std::optional<SimulationState> state_to_resume(const RunFolder& folder,
                                                const SimulateOptions& options,
                                                const RunIdentity& run,
                                                RunCheckpoints& checkpoints) {
-  if (!options.resume || !folder.used()) return std::nullopt;
   std::string complaint;
   auto state = checkpoints.resume(run, complaint);
   if (!complaint.empty()) say(options, "passed over: " + complaint);
@@ -468,20 +461,28 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   const FolderLock lock(folder, create(folder));
   if (!lock.left_by().empty())
     say(options, "taking over from " + lock.left_by() + ", which ended without a word");
-  if (!may_begin(folder, options)) return {Exit::done, true, ""};
+  const bool resumed = resumes(folder, options);
 
   const std::string resolved = readable_scene(scene, folder.scene());
-  if (options.resume && folder.used()) check_same_scene(folder, resolved);
+  if (resumed) check_same_scene(folder, resolved);
   Prepared prepared = prepare_in(scene, folder);
-  RunCheckpoints checkpoints(folder, scene);
   const RunIdentity identity = identity_of(resolved, prepared);
-  const auto state = state_to_resume(folder, options, identity, checkpoints);
+  if (resumed && status_of(folder) == "finished") {
+    check_same_files(folder, identity);
+    say(options, "the run in " + folder.path.string() + " is finished already");
+    return {Exit::done, true, ""};
+  }
+  check_space(folder.path, needs_of(prepared), size_of_old_run(folder));
+  RunCheckpoints checkpoints(folder, scene);
+  std::optional<SimulationState> state;
+  if (resumed) state = state_to_resume(folder, options, identity, checkpoints);
   if (!state) remove_old_run(folder);
   checkpoints.keep_for(identity);
   RunLog log(folder, options.command, state.has_value());
   log.spend("filling", prepared.seconds_filling);
   log.spend("binding", prepared.seconds_binding);
   log.describe(prepared);
+  log.describe(identity);
   if (options.engine) log.describe(*options.engine);
   say_what_is_doubtful(prepared, options);
   if (options.before_stepping) options.before_stepping();

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/run/run_record.h>
 
 namespace sinew {
 namespace {
@@ -44,6 +46,11 @@ Error another_run(const std::string& what) {
   return bad_input("--resume continues the same run only: " + what,
                    "give what the run began with, replace the run with --force, or choose another "
                    "folder with -o");
+}
+
+void refuse_other_files(bool body_differs, bool motion_differs) {
+  if (body_differs) throw another_run("the mesh, or what fills or binds it, has changed");
+  if (motion_differs) throw another_run("the motion of its bones or obstacles has changed");
 }
 
 void add(const Triangles& surface, Hash& hash) {
@@ -121,6 +128,16 @@ RunIdentity identity_of(const std::string& resolved, const Prepared& prepared) {
           prepared.steps.step};
 }
 
+void check_same_files(const RunFolder& folder, const RunIdentity& run) {
+  const auto record = read_record(folder);
+  if (!record.contains("version") || record["version"] != run.program)
+    return;  // which may bind in another way
+  const auto differs = [&](const char* key, std::uint64_t hash) {
+    return record.contains(key) && record[key] != hash_text(hash);
+  };
+  refuse_other_files(differs("body_hash", run.body), differs("motion_hash", run.motion));
+}
+
 RunCheckpoints::RunCheckpoints(const RunFolder& folder, const Settings& settings)
     : checkpoints_(folder.checkpoints()),
       interval_(settings.output.checkpoint_interval),
@@ -136,9 +153,7 @@ std::optional<SimulationState> RunCheckpoints::resume(const RunIdentity& run,
   if (was.time_step != run.time_step)
     throw another_run("its step is " + number_text(was.time_step) + " s, not " +
                       number_text(run.time_step) + " s");
-  if (was.body != run.body) throw another_run("the mesh, or what fills or binds it, has changed");
-  if (was.motion != run.motion)
-    throw another_run("the motion of its bones or obstacles has changed");
+  refuse_other_files(was.body != run.body, was.motion != run.motion);
   if (was.scene != run.scene) throw another_run("its scene is another");
   return std::move(found->state);
 }

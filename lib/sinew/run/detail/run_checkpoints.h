@@ -26,6 +26,9 @@ void check_same_scene(const RunFolder& folder, const std::string& resolved);
 /// content of the scene's files: meshes, rigs and clips may have changed under the same name.
 RunIdentity identity_of(const std::string& resolved, const Prepared& prepared);
 
+/// Throws bad input where meshes, rigs or clips have changed since the run in the folder was run.
+void check_same_files(const RunFolder& folder, const RunIdentity& run);
+
 class RunCheckpoints {
  public:
   RunCheckpoints(const RunFolder& folder, const Settings& settings);

@@ -187,6 +187,11 @@ void RunLog::describe(const StepperChoice& choice) {
       name_of(choice.search) + ", instructions " + kernel::name_of(choice.instructions));
 }
 
+void RunLog::describe(const RunIdentity& run) {
+  record_["body_hash"] = hash_text(run.body);
+  record_["motion_hash"] = hash_text(run.motion);
+}
+
 void RunLog::describe(const Engine& engine) {
   record_["stepper"] = engine.name;
   record_["ranks"] = engine.ranks;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <sinew/core/file.h>
+#include <sinew/io/checkpoint.h>
 #include <sinew/run/engine_steps.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/prepare.h>
@@ -26,6 +27,7 @@ class RunLog {
   RunLog(const RunFolder& folder, const std::vector<std::string>& command, bool resumed = false);
 
   void describe(const Prepared& prepared);
+  void describe(const RunIdentity& run);
   /// Describes the engine that makes the steps in another program.
   void describe(const Engine& engine);
 
