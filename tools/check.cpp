@@ -57,6 +57,7 @@ Exit check(const std::string& scene, const std::string& picture, int modes,
   }
   if (!picture.empty()) {
     refuse_output(picture, {scene}, ".png");
+    refuse_file_of_run(picture);
     prepare_to_draw();
   }
   std::optional<Waiting> waiting(std::in_place, "preparing", progress_style(common.quiet));

@@ -97,6 +97,7 @@ void refuse_target(const std::filesystem::path& target, const Options& options, 
   if (!folder && is_folder)
     throw bad_input(Place{target.string()}, "is a folder", "name a file with -o");
   refuse_to_replace_scene(target);
+  refuse_file_of_run(target);
 }
 
 void print(const ExportedFrames& done, const RunFiles& run, const std::vector<std::size_t>& frames,
@@ -140,6 +141,7 @@ Exit export_scene(const Options& options, const Common& common) {
       options.output.empty() ? scene.stem().string() + ".inp" : options.output;
   const Settings settings = with_fit(read_scene(scene, common.overrides));
   refuse_output(target.string(), {options.folder, settings.body.mesh}, target.extension().string());
+  refuse_file_of_run(target);
   const Deck deck = deck_of(settings, read_mesh(settings), options.elements);
   write_deck(target, deck);
   print(deck, target, common);
@@ -167,7 +169,7 @@ Exit export_cells(const Options& options, const Common& common) {
                     "leave -o out, or give another name with it");
   std::optional<FolderLock> lock;
   if (own) lock.emplace(run.folder);
-  if (!own) create_folder(target);
+  if (!own) refuse_file_of_run(target / "volume.pvd"), create_folder(target);
   const ExportedVolume done = export_volume(run, frames, target);
   Results results;
   results.add("particles", run.body.particles.size());

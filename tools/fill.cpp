@@ -9,6 +9,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/io/cells/cell_formats.h>
 #include <sinew/io/particle_formats/formats.h>
+#include <sinew/run/run_folder.h>
 #include <sinew/scene/body.h>
 #include <sinew/settings/read_scene.h>
 #include "command/body_options.h"
@@ -61,6 +62,12 @@ Settings settings_for_scene(const Options& options, const Common& common) {
   return read_scene(options.input, common.overrides);
 }
 
+void refuse_target(const Options& options, const Settings& settings) {
+  refuse_output(options.output, {options.input, settings.body.mesh},
+                std::filesystem::path(options.output).extension().string());
+  refuse_file_of_run(options.output);
+}
+
 void print(const FillReport& report, const Options& options, const Common& common) {
   Results results;
   for (const auto& rows : {rows_of(report), times_of(report)})
@@ -104,8 +111,7 @@ Exit fill_with_cells(Options options, const Common& common) {
   if (options.output.empty()) options.output = "volume.vtu";
   check_cell_file(options.output);
   const Settings settings = settings_for(options, common);
-  refuse_output(options.output, {options.input, settings.body.mesh},
-                std::filesystem::path(options.output).extension().string());
+  refuse_target(options, settings);
   const Surface surface = read_mesh(settings);
   const Filling filling = fill_body(settings, surface, options.verify);
   const Points rest = positions_of(filling.particles);
@@ -125,8 +131,7 @@ Exit fill(Options options, const Common& common) {
   const ParticleFormat& format = format_of(options.format, options.output);
   if (options.output.empty()) options.output = "body" + std::string(format.extensions.front());
   const Settings settings = settings_for(options, common);
-  const std::string extension = std::filesystem::path(options.output).extension().string();
-  refuse_output(options.output, {options.input, settings.body.mesh}, extension);
+  refuse_target(options, settings);
   Filling filling = fill_body(settings, read_mesh(settings), options.verify);
   const FillReport report = filling.report;
   write(options, format, settings, body_file(std::move(filling), origin_of(settings)));

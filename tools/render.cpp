@@ -261,7 +261,11 @@ bool has_movie(const Options& options, std::size_t view) {
 }
 
 std::filesystem::path target_of(const Options& options, const RunFiles& run) {
-  return options.target.empty() ? run.folder.pictures() : std::filesystem::path(options.target);
+  if (options.target.empty()) return run.folder.pictures();
+  if (std::filesystem::weakly_canonical(options.target) !=
+      std::filesystem::weakly_canonical(run.folder.pictures()))
+    refuse_file_of_run(std::filesystem::path(options.target) / "contact_sheet.png");
+  return options.target;
 }
 
 Exit render(const Options& options, const Common& common, const std::vector<std::string>& words) {

@@ -253,6 +253,7 @@ Exit draw(const Options& options) {
 Exit view(const Options& options, const Common& common) {
   const RunFolder folder{options.folder};
   check(options, folder);
+  if (!options.picture.empty()) refuse_file_of_run(options.picture);
   setenv("SINEW_RUN", fs::absolute(folder.path).c_str(), 1);
   if (options.live) return follow(options);
   return options.picture.empty() ? open_window(folder, options, common) : draw(options);

@@ -332,6 +332,33 @@ class Commands(SmallRun):
         self.assert_one_line(sinew(*words, pipe), 4, "pipe")
         self.assertTrue(pipe.is_fifo())
 
+    def test_no_command_replaces_a_file_of_a_run(self):
+        self.simulate("--set", "solver.duration=0", "--set", "output.volume=true")
+        other, box = self.folder / "other", SOURCE / "data/meshes/box.obj"
+        sinew("simulate", self.scene, "-o", other, "--set", "solver.duration=0", check=0)
+        (self.out / "meshes").mkdir()
+        (self.out / "pictures").mkdir()
+        files = {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()}
+        os.symlink(self.out, self.folder / "link")
+        for command in (("fill", box, "--radius", "0.03", "-o", self.out / "body.vtu"),
+                        ("fill", self.scene, "-o", self.folder / "link/particles/particles_000000.vtu"),
+                        ("fill", self.scene, "--to", "tetrahedra", "-o", self.out / "blowup.vtu"),
+                        ("fill", self.scene, "--to", "csv", "-o", self.out / "bones.csv"),
+                        ("info", box, "-o", self.out / "surface/surface_000000.vtu"),
+                        ("info", box, "-o", self.out / "meshes/box.vtu"),
+                        ("check", self.scene, "--picture", self.out / "pictures/contact_sheet.png"),
+                        ("render", other, "-o", self.out / "pictures"),
+                        ("view", other, "--picture", self.out / "pictures/scene.png"),
+                        ("export", other, "--to", "csv", "-o", self.out / "bones.csv"),
+                        ("export", other, "--to", "gltf", "-o", self.out / "surface.glb"),
+                        ("export", other, "--to", "volume", "-o", self.out)):
+            self.assert_one_line(sinew(*command), 2, "is of the run", "give another name")
+        self.assertEqual({path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()}, files)
+        sinew("info", box, "-o", self.out / "defects.vtu", check=0)
+        sinew("render", other, "-o", other / "pictures", "--no-movie", check=0)
+        done = sinew("fill", self.scene, cwd=self.out)
+        self.assert_one_line(done, 2, "body.vtu", "is of the run")
+
     def test_mistakes_reached_through_a_scene_name_its_line(self):
         self.assert_one_line(self.simulate("--set", "body.mesh=none.obj", check=2), 2, "none.obj")
         bad = self.folder / "bad.yaml"

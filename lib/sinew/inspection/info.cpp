@@ -11,6 +11,7 @@
 #include <sinew/inspection/mesh_info.h>
 #include <sinew/io/checksums.h>
 #include <sinew/rig/motion.h>
+#include <sinew/run/run_folder.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/rig.h>
@@ -209,7 +210,10 @@ Info info_of_file(const InfoOptions& options) {
   } else {
     body = body_of_mesh(options);
   }
-  if (!options.drawing.empty()) refuse_output(options.drawing, {options.path, body.mesh});
+  if (!options.drawing.empty()) {
+    refuse_output(options.drawing, {options.path, body.mesh});
+    refuse_file_of_run(options.drawing);
+  }
   add_mesh(body, options.drawing, info);
   info.findings.add_line("warnings", info.warnings);
   return info;

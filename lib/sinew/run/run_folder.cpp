@@ -122,6 +122,20 @@ void refuse_foreign_files(const RunFolder& folder) {
   refuse_others(folder);
 }
 
+void refuse_file_of_run(const fs::path& file) {
+  std::error_code failed;
+  fs::path relative = file.filename();
+  RunFolder folder{fs::weakly_canonical(fs::absolute(file).parent_path(), failed)};
+  for (int depth = 0; depth < 2; ++depth) {
+    if (folder.used() &&
+        (written_by_a_run(relative) || relative == "body.vtu" || *relative.begin() == "meshes"))
+      throw bad_input(Place{file.string()}, "is of the run in this folder, and would be replaced",
+                      "give another name");
+    relative = folder.path.filename() / relative;
+    folder.path = folder.path.parent_path();
+  }
+}
+
 std::uint64_t size_of_old_run(const RunFolder& folder) {
   std::uint64_t bytes = 0;
   std::error_code failed;

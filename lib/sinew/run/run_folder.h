@@ -56,6 +56,9 @@ void remove_old_run(const RunFolder& folder);
 /// excepted, and where one of the folders within is a link: files elsewhere would be replaced.
 void refuse_foreign_files(const RunFolder& folder);
 
+/// Throws bad input where a file to be written is named as one of the run in whose folder it lies.
+void refuse_file_of_run(const std::filesystem::path& file);
+
 /// Bytes that remove_old_run would free.
 std::uint64_t size_of_old_run(const RunFolder& folder);
 
