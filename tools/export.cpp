@@ -14,6 +14,7 @@
 #include <sinew/scene/finite_elements.h>
 #include <sinew/scene/rig.h>
 #include <sinew/settings/read_scene.h>
+#include "command/child.h"
 #include "command/command.h"
 #include "command/results.h"
 
@@ -168,6 +169,7 @@ Exit export_cells(const Options& options, const Common& common) {
     throw bad_input(Place{target.string()}, "is of the run itself",
                     "leave -o out, or give another name with it");
   std::optional<FolderLock> lock;
+  end_at_stop_signals(!common.quiet, FolderLock::release_held);
   if (own) lock.emplace(run.folder);
   if (!own) refuse_file_of_run(target / "volume.pvd"), create_folder(target);
   const ExportedVolume done = export_volume(run, frames, target);

@@ -55,6 +55,7 @@ std::string resume_words(const Options& options, const Common& common, const Run
 }
 
 Exit simulate_scene(int argc, char** argv, const Options& options, const Common& common) {
+  end_at_stop_signals(!common.quiet, FolderLock::release_held);
   catch_lost_reader();  // of the first warnings, too
   refuse_mesh_as_scene(options.scene);
   const Settings settings = read_scene(options.scene, common.overrides);
@@ -68,7 +69,7 @@ Exit simulate_scene(int argc, char** argv, const Options& options, const Common&
   };
   how.warning = [&](const std::string& line) { how.message("sinew: warning: " + line); };
   how.stop_requested = stop_requested;
-  how.before_stepping = catch_stop_signals;
+  how.before_writing = catch_stop_signals;
   how.progress = [&](const RunProgress& at) {
     if (!progress) progress.emplace(at.frames, progress_style(common.quiet));
     if (at.iterations > 0)

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <sinew/core/text.h>
+#include "command/child.h"
 #include "command/command.h"
 #include "command/drawing.h"
 #include "command/results.h"
@@ -72,6 +73,7 @@ Exit become(const std::string& name, const std::vector<char*>& rest) {
   std::vector<char*> arguments = {path.data()};
   arguments.insert(arguments.end(), rest.begin(), rest.end());
   arguments.push_back(nullptr);
+  hold_stop_signals();
   execv(path.c_str(), arguments.data());
   throw bad_input({path}, "cannot be started (" + std::generic_category().message(errno) + ")",
                   "build or install all programs of sinew");

@@ -294,6 +294,26 @@ class Stops(SmallRun):
             self.assert_series_are_whole(self.record()["frames"])
             sinew("measure", self.out, check=0)
 
+    def test_a_signal_while_it_prepares_leaves_nothing(self):
+        """A body whose filling takes longer than any of these moments; elsewhere a folder that was there."""
+        fine = ["--set", "body.radius=0.0015"]
+        there = self.folder / "there"
+        there.mkdir()
+        for command in (["simulate", self.scene, *fine, "-o", self.folder / "a/b"], ["run", self.scene, *fine, "-o", there],
+                        ["converge", self.scene, "--radii", "0.0015,0.001", "-o", self.folder / "study"],
+                        ["check", self.scene, *fine], ["fill", self.scene, *fine, "-o", self.folder / "body.vtu"]):
+            for name in (signal.SIGINT, signal.SIGTERM):
+                for moment in (0.1, 0.4, 0.9):
+                    with subprocess.Popen([BIN / "sinew", *map(str, command)], stderr=subprocess.PIPE, text=True) as child:
+                        time.sleep(moment)
+                        child.send_signal(name)
+                        said = child.stderr.read()
+                        self.assertEqual(child.wait(30), 130, (command, name, moment, said))
+                    self.assertIn("sinew: stopped; give the same command again\n", said)
+                    left = {path.relative_to(self.folder).as_posix() for path in self.folder.rglob("*")}
+                    self.assertLessEqual(left, {"small.yaml", "there", "there/.lock"}, (command, name, moment))
+                    self.assertEqual((there / ".lock").read_text() if (there / ".lock").exists() else "", "")
+
     def run_in_a_terminal(self):
         """A whole run that has left some frames, and the terminal it is in."""
         words = ["sinew", "run", str(self.scene), "-o", str(self.out), "--set", "solver.duration=1000"]

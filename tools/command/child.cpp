@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <sinew/core/system.h>
@@ -24,7 +25,43 @@ volatile std::sig_atomic_t requested = 0;  // the only state a signal handler ma
 
 void remember(int) { requested = 1; }
 
+struct {
+  bool says = false;
+  void (*release)() = nullptr;
+} at_end;
+
+void end_at_once(int) {
+  constexpr std::string_view words = "sinew: stopped; give the same command again\n";
+  if (at_end.release != nullptr) at_end.release();
+  if (at_end.says && ::write(STDERR_FILENO, words.data(), words.size()) < 0) ::_exit(1);
+  ::_exit(static_cast<int>(Exit::interrupted));
+}
+
+void change_mask(int how) {
+  sigset_t stops;
+  sigemptyset(&stops);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) sigaddset(&stops, signal);
+  pthread_sigmask(how, &stops, nullptr);
+}
+
 }  // namespace
+
+void hold_stop_signals() { change_mask(SIG_BLOCK); }
+
+void end_at_stop_signals(bool says, void (*release)()) {
+  hold_stop_signals();
+  at_end = {says, release};
+  struct sigaction action {};
+  action.sa_handler = end_at_once;
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM})
+    if (signal != SIGHUP || !ignores_hangup()) sigaction(signal, &action, nullptr);
+  change_mask(SIG_UNBLOCK);
+}
+
+bool is_part_of_another() {
+  int with_parent = 0;
+  return ::prctl(PR_GET_PDEATHSIG, &with_parent) == 0 && with_parent != 0;
+}
 
 bool ignores_hangup() {
   struct sigaction now {};
@@ -120,8 +157,10 @@ Child start_child(const std::string& command, const std::vector<std::string>& ar
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start;
   const pid_t parent = ::getpid();
+  hold_stop_signals();  // the child is ready for them later
   const pid_t child = ::fork();
   if (child == 0) become(program, words, pipe[1], parent);
+  change_mask(SIG_UNBLOCK);
   ::close(pipe[1]);
   if (child < 0) throw cannot_start;
   return {child, pipe[0]};

@@ -18,6 +18,16 @@ namespace sinew {
 // Requests to stop (SIGINT, SIGTERM, a closed terminal), checked where stopping leaves all files
 // complete.
 
+/// Blocks them, also in the program that this one becomes or starts, until it says what they do.
+void hold_stop_signals();
+
+/// Makes each of them end the program at once with code 130: after `release`, which makes only
+/// calls that are safe in a signal handler, and a line on standard error if it `says` so.
+void end_at_stop_signals(bool says, void (*release)() = nullptr);
+
+/// Whether another program of sinew has started this one as a part of its own work.
+bool is_part_of_another();
+
 /// Whether SIGHUP was ignored when the program began, as under nohup.
 bool ignores_hangup();
 

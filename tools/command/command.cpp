@@ -13,6 +13,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
+#include "command/child.h"
 #include "command/results.h"
 #include "command/settings_list.h"
 #include "command/terminal.h"
@@ -113,6 +114,9 @@ bool parse(CLI::App& app, int argc, char** argv, const std::string& see_help) {
   return true;
 }
 
+/// Whether it says that it was stopped; of most parts of a run, the run does.
+bool says_of_stops(const About& about) { return about.name == "simulate" || !is_part_of_another(); }
+
 Exit parse_and_run(int argc, char** argv, const About& about,
                    const std::function<void(OptionList&)>& declare,
                    const std::function<Exit(const Common&)>& job) {
@@ -125,6 +129,7 @@ Exit parse_and_run(int argc, char** argv, const About& about,
   declare_common(app, about, given);
   app.footer(help_footer(about));
   if (!parse(app, argc, argv, "see sinew " + about.name + " --help")) return Exit::done;
+  end_at_stop_signals(!given.common.quiet && says_of_stops(about));
   for (const std::string& set : given.sets) given.common.overrides.push_back(parse_override(set));
   Exit exit = Exit::done;
   with_threads(given.common.threads, [&] { exit = job(given.common); });
@@ -169,7 +174,10 @@ int run_reporting_errors(const std::function<Exit()>& job) {
 int run_command(int argc, char** argv, const About& about,
                 const std::function<void(OptionList&)>& declare,
                 const std::function<Exit(const Common&)>& job) {
-  return run_reporting_errors([&] { return parse_and_run(argc, argv, about, declare, job); });
+  return run_reporting_errors([&] {
+    end_at_stop_signals(says_of_stops(about));
+    return parse_and_run(argc, argv, about, declare, job);
+  });
 }
 
 void say(const Common& common, const std::string& line) {

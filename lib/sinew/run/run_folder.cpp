@@ -190,23 +190,27 @@ std::string holder_of(int lock) {
   return holder;
 }
 
-bool put_holder(int lock, const std::string& holder) {
+bool put_holder(int lock, std::string_view holder) {
   return ::ftruncate(lock, 0) == 0 &&
          ::pwrite(lock, holder.data(), holder.size(), 0) == static_cast<ssize_t>(holder.size());
 }
 
 }  // namespace
 
-FolderLock::FolderLock(const RunFolder& folder, fs::path created)
-    : folder_(folder.path), created_(std::move(created)) {
-  const fs::path path = folder.path / ".lock";
+std::atomic<const FolderLock*> FolderLock::held = nullptr;
+
+FolderLock::FolderLock(const RunFolder& folder, const fs::path& created)
+    : path_(folder.path / ".lock") {
+  if (!created.empty())
+    for (fs::path path = fs::absolute(folder.path / ""); path != created; created_.push_back(path))
+      path = path.parent_path();
   const auto cannot_be_made = [&] {
     const std::string why = std::strerror(errno);
     if (file_ >= 0) ::close(file_);
-    return not_written(path.string(), "cannot be made (" + why + ")",
+    return not_written(path_.string(), "cannot be made (" + why + ")",
                        "make space, or choose a folder you may write to with -o");
   };
-  file_ = open_lock(path);
+  file_ = open_lock(path_);
   if (file_ < 0) throw cannot_be_made();
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
     const std::string holder = holder_of(file_);
@@ -218,21 +222,32 @@ FolderLock::FolderLock(const RunFolder& folder, fs::path created)
   }
   left_by_ = holder_of(file_);
   if (!put_holder(file_, this_process() + '\n')) throw cannot_be_made();
+  held = this;
 }
 
-void FolderLock::leave_nothing() const {
+bool FolderLock::is_alone() const {
   std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder_, failed))
-    if (entry.path().filename() != ".lock") return;
-  if (failed || created_.empty()) return;
-  fs::remove(folder_ / ".lock", failed);
-  fs::path path = fs::absolute(folder_ / "").parent_path();
-  while (!failed && fs::remove(path, failed) && path != created_) path = path.parent_path();
+  for (const auto& entry : fs::directory_iterator(path_.parent_path(), failed))
+    if (entry.path().filename() != ".lock") return false;
+  return !failed;
+}
+
+/// Makes only calls that POSIX permits in signal handlers.
+void FolderLock::release() const noexcept {
+  put_holder(file_, {});
+  if (!created_.empty()) ::unlink(path_.c_str());
+  for (const fs::path& folder : created_)
+    if (::rmdir(folder.c_str()) != 0) return;
+}
+
+void FolderLock::release_held() noexcept {
+  if (const FolderLock* lock = held) lock->release();
 }
 
 FolderLock::~FolderLock() {
-  put_holder(file_, "");
-  leave_nothing();
+  held = nullptr;
+  if (!is_alone()) created_.clear();
+  release();
   ::close(file_);
 }
 

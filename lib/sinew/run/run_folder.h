@@ -7,10 +7,12 @@
 //     const FolderLock lock(folder);
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace sinew {
 
@@ -82,7 +84,7 @@ class FolderLock {
  public:
   /// Throws bad input, naming the process, where another one holds the lock, and not written where
   /// the lock cannot be created.
-  explicit FolderLock(const RunFolder& folder, std::filesystem::path created = {});
+  explicit FolderLock(const RunFolder& folder, const std::filesystem::path& created = {});
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -90,10 +92,17 @@ class FolderLock {
   /// The process that had it before and ended without releasing it; "" for none.
   const std::string& left_by() const { return left_by_; }
 
- private:
-  void leave_nothing() const;
+  /// Leaves nothing of the lock that this process holds, if any: for a signal handler that ends the
+  /// program before anything else has come into the folder.
+  static void release_held() noexcept;
 
-  std::filesystem::path folder_, created_;
+ private:
+  bool is_alone() const;
+  void release() const noexcept;
+
+  static std::atomic<const FolderLock*> held;
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> created_;  ///< to be removed, the innermost first
   int file_ = -1;
   std::string left_by_;
 };

@@ -88,6 +88,11 @@ void write_last_state(const Simulation& simulation, const std::filesystem::path&
                {simulation.time(), static_cast<std::int32_t>(simulation.steps())});
 }
 
+const char* status_after(Exit exit) {
+  if (exit == Exit::interrupted) return "stopped";
+  return exit == Exit::unstable ? "unstable" : "failed";
+}
+
 /// One run while it goes on: what is stepped, and who writes of it.
 class Run {
  public:
@@ -107,7 +112,7 @@ class Run {
       log_.end(exit == Exit::done ? "finished" : "stopped", *simulation_);
       return exit;
     } catch (const Error& error) {
-      log_.fail(error.exit() == Exit::unstable ? "unstable" : "failed", error.what());
+      log_.fail(status_after(error.exit()), error.what());
       throw;
     } catch (const std::exception& error) {
       log_.fail("failed", error.what());
@@ -137,6 +142,9 @@ class Run {
     if (state) prepared.beginning = {};  // it is at another moment
     const bool posed = prepared.beginning.posed;
     simulation_.emplace(start(std::move(prepared), [&](std::int64_t iterations, double residual) {
+      if (asked_to_stop(false))
+        throw Error(Exit::interrupted,
+                    "stopped before the first frame; give the same command and --resume");
       if (options_.progress)
         options_.progress({0, schedule_.frames.count, 0, 0, 0, iterations, residual});
     }));
@@ -472,6 +480,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
     say(options, "the run in " + folder.path.string() + " is finished already");
     return {Exit::done, true, ""};
   }
+  if (options.before_writing) options.before_writing();
   check_space(folder.path, needs_of(prepared), size_of_old_run(folder));
   RunCheckpoints checkpoints(folder, scene);
   std::optional<SimulationState> state;
@@ -485,7 +494,6 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   log.describe(identity);
   if (options.engine) log.describe(*options.engine);
   say_what_is_doubtful(prepared, options);
-  if (options.before_stepping) options.before_stepping();
   const Exit exit =
       Run(scene, folder, options, log, checkpoints).to_end(std::move(prepared), state);
   return {exit, false, json_text(log.record())};

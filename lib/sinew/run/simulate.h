@@ -42,7 +42,7 @@ struct SimulateOptions {
   std::function<void(const std::string&)> message = {};
   std::function<void(const std::string&)> warning = {};
   std::function<bool()> stop_requested = {};  ///< asked after every step
-  std::function<void()> before_stepping = {};
+  std::function<void()> before_writing = {};  ///< once the scene is prepared
 };
 
 struct RunResult {
