@@ -112,6 +112,8 @@ TEST(Fit, OptionsHoldBothPlacements) {
 
 TEST(Fit, RefusesAMeshOfNoSize) {
   test::expect_bad_input([] { fit_to({}, person()); }, {"no size", "; "});
+  test::expect_bad_input([] { fit_to(flesh(person()), {}); },
+                         {"no rig", "; ", "leave skeleton.fit out"});
 }
 
 TEST(Angles, AreThoseOfTheRotationAndExactInRightAngles) {

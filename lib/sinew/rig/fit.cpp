@@ -216,6 +216,9 @@ Candidate best_of(const Target& coarse, const Target& fine, const Sticks& sticks
 }  // namespace
 
 Placement fit_to(const Triangles& surface, const Skeleton& skeleton) {
+  if (skeleton.bones.empty())
+    throw bad_input("there is no rig to fit",
+                    "name one in skeleton.file, give skeleton.bones, or leave skeleton.fit out");
   const Target coarse = target_of(surface, few), fine = target_of(surface, many);
   const Sticks sticks = sticks_of(skeleton);
   const Box mesh = bounds(surface.points);
