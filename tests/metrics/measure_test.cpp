@@ -185,6 +185,13 @@ TEST(Measure, TheLargestStressIsNotThatOfLoadedLayers) {
   const FrameMetrics free = measure(body, state);
   EXPECT_EQ(free.von_mises_max, 9);
   EXPECT_EQ(free.von_mises_left_out, 0);
+  state.world_force.assign(body.particles(), Vec3(0, 0, -2));
+  state.von_mises.assign(body.particles(), not_measured);
+  for (std::size_t i = 0; i < body.particles(); ++i)
+    if (body.layer[i] > 0) state.von_mises[i] = 7;
+  const FrameMetrics everywhere = measure(body, state);
+  EXPECT_EQ(everywhere.von_mises_max, 7);
+  EXPECT_EQ(everywhere.von_mises_left_out, 0);
 }
 
 TEST(Measure, ASpinningBodyHasTheMomentaOfARigidOne) {

@@ -288,6 +288,23 @@ probes:
         done = sinew("measure", self.out, check=2)
         self.assertRegex(done.stderr, "supports.csv: has 'x[^']*' where a number belongs; run")
 
+    def test_what_a_probe_does_not_know_is_empty_and_said_once(self):
+        """The end of a limb that turns so fast that its particles are inverted."""
+        bones = ("skeleton: {bones: [{name: a, head: [0, 0, 0], tail: [0, 0, 0.35]}, {name: b, parent: a, tail: [0, 0, 0.69]}]}\n"
+                 "motion: {tracks: [{bone: b, keys: [{time: 0}, {time: 0.05, axis: [0, 1, 0], angle: 720}]}]}\n"
+                 "probes: [{name: end, facing: [0, 0, 1]}]\n")
+        scene = self.folder / "fast.yaml"
+        scene.write_text(f"body: {{mesh: {SOURCE / 'data/meshes/box.obj'}, radius: 0.03}}\nmaterial: {{model: bonded}}\n"
+                         f"{bones}solver: {{duration: 0.1}}\noutput: {{interval: 0.05}}\n")
+        done = sinew("simulate", scene, "-o", self.out)
+        with (self.out / "probes.csv").open() as file:
+            last = list(csv.DictReader(file))[-1]
+        self.assertEqual({last[f"stress_{axes}"] for axes in ("xx", "yy", "zz", "xy", "yz", "xz")}, {""})
+        self.assertTrue(all(value for name, value in last.items() if not name.startswith("stress")))
+        self.assertEqual(done.stderr.count("probe 'end' has no strain or stress in some frames"), 1)
+        sinew("measure", self.out)
+        self.assertNotIn("nan", (self.out / "probes.csv").read_text())
+
     def test_supports_and_loads_are_a_series_of_their_own(self):
         self.run_of(PULL.format(by=0.002) + "loads: [{name: sea, pressure: 600}]\n",
                     "--set", "solver.duration=0.2", "--set", "output.encoding=none")

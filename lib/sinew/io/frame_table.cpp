@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/frame_table.h>
 
+#include <cmath>
 #include <string_view>
 
 #include <sinew/core/error.h>
@@ -37,7 +38,10 @@ std::string csv_cell(std::string text) {
   return quoted + '"';
 }
 
-void add_cell(double value, std::string& row) { row += ',' + number_text(value); }
+void add_cell(double value, std::string& row) {
+  row += ',';
+  if (!std::isnan(value)) row += number_text(value);
+}
 
 void add_cells(const Vec3& vector, std::string& row) {
   for (const double value : vector) add_cell(value, row);

@@ -19,7 +19,8 @@ namespace sinew {
 /// take one off.
 std::string csv_cell(std::string text);
 
-/// Appends ",x,y,z" and ",x", each as the shortest text that reads back as the same number.
+/// Appends ",x,y,z" and ",x", each as the shortest text that reads back as the same number, empty
+/// where it is not-a-number.
 void add_cells(const Vec3& vector, std::string& row);
 void add_cell(double value, std::string& row);
 

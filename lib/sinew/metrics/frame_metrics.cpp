@@ -132,18 +132,22 @@ bool is_disturbed(const RestBody& rest, const Points& force, double negligible, 
 }
 
 void add_largest_stress(FrameMetrics& out, const RestBody& rest, const FrameState& state,
-                        std::vector<double> stress) {
-  if (stress.empty()) return;
+                        const std::vector<double>& all) {
+  if (all.empty()) return;
   constexpr double rounding = 1e-6;  // of the largest force
   double largest = 0;
   for (const Vec3& force : state.world_force) largest = std::max(largest, force.norm());
   out.von_mises_left_out = 0;
+  std::vector<double> stress = all;
   for (std::size_t i = 0; i < stress.size() && largest > 0; ++i)
     if (is_disturbed(rest, state.world_force, rounding * largest, i)) {
       stress[i] = not_measured;
       ++out.von_mises_left_out;
     }
   out.von_mises_max = percentile_of(std::move(stress), 100);
+  if (!std::isnan(out.von_mises_max)) return;
+  out.von_mises_left_out = 0;  // the body is thin, and the world acts on all of it
+  out.von_mises_max = percentile_of(all, 100);
 }
 
 void add_energies(FrameMetrics& out, const Energies& start, const Energies& now) {

@@ -121,7 +121,7 @@ constexpr std::array metric_table = {
         "Largest von Mises stress, the two outer layers left out where the world acts on them: "
         "there stress is less or more than the body's by half",
         "max of the same; not where surface_layer is 1 or 2 and force_world acts on the particle "
-        "or a neighbor",
+        "or a neighbor, unless that leaves none",
         &M::von_mises_max},
     Metric{"von_mises_left_out", "", "Particles that von_mises_max leaves out", "count of them",
            &M::von_mises_left_out},

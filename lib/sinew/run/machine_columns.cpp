@@ -57,10 +57,12 @@ std::string unit_of(std::string_view column) {
   throw bad_input(Place{file.string()}, what, "run the scene again with --force");
 }
 
+/// Not-a-number in an empty cell.
 double number_in(const std::string& cell, const std::filesystem::path& file) {
+  if (cell.empty()) return std::nan("");
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
-  if (cell.empty() || *end != '\0') refuse(file, "has '" + cell + "' where a number belongs");
+  if (*end != '\0') refuse(file, "has '" + cell + "' where a number belongs");
   return value;
 }
 

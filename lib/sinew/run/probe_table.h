@@ -28,7 +28,7 @@ struct ProbedValues {
 /// displacement_z (m), strain_xx to strain_xz (Green-Lagrange), stress_xx to stress_xz (Pa,
 /// Cauchy's), force_x, force_y, force_z (N: the sum of all that acts on the part from outside of
 /// the body but for its weight; of a point 0). Strains and stresses are means over the particles
-/// that have them.
+/// that have them, and empty where none has.
 class ProbeTable {
  public:
   /// Continues after `kept` frames; throws as FrameTable does.
@@ -38,7 +38,7 @@ class ProbeTable {
   void add(double time, const Points& positions, const Points& rest, const ProbedValues& values);
   void close() { table_.close(); }  ///< throws not written
 
-  /// Names of those of which none of the particles had a strain in some frame.
+  /// Names of those of which none of the particles had a strain or a stress in some frame.
   const std::set<std::string>& unknown() const { return unknown_; }
 
  private:

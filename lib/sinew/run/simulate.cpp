@@ -379,8 +379,9 @@ class Run {
     writer_->close();
     if (const ProbeTable* probes = writer_->probes())
       for (const std::string& name : probes->unknown())
-        warn("probe " + shown(name) + " has no strain in some frames: its particles have too few " +
-             "neighbors; place it where the body is thicker");
+        warn("probe " + shown(name) + " has no strain or stress in some frames, empty cells of " +
+             "probes.csv: its particles are inverted or have too few neighbors; make the load " +
+             "smaller, or place it where the body is thicker");
     warn_of_inverted();
     warn_of_buckling();
     describe_retakes();
