@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <sinew/core/error.h>
@@ -28,6 +29,10 @@ TEST(Triangulate, CutsConvexPolygonsOfManyCornersInOneGo) {
   const auto triangles = triangulate(polygon, points);
   EXPECT_EQ(triangles.size(), polygon.size() - 2);
   EXPECT_NEAR(area_of(triangles, points), corners / 2.0 * std::sin(2 * pi / corners), 1e-9);
+  std::vector<int> uses(corners);  // triangles of one corner are all near each other
+  for (const auto& triangle : triangles)
+    for (const int corner : triangle) ++uses[corner];
+  EXPECT_LE(*std::max_element(uses.begin(), uses.end()), 2 * std::log2(corners));
 }
 
 TEST(Triangulate, CutsAnLWithoutLeavingIt) {

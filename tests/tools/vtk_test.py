@@ -6,6 +6,10 @@ usage: /usr/bin/python3 vtk_test.py BIN SOURCE      folder of the programs, fold
 """
 import json
 import math
+import os
+import resource
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -14,7 +18,7 @@ import meshio
 import numpy
 import vtk
 
-from small_run import sinew
+from small_run import BIN, sinew
 
 RADIUS = 0.5
 
@@ -180,6 +184,48 @@ class Vtk(unittest.TestCase):
         said = sinew("info", self.folder / "body.vtu", check=2).stderr
         self.assertIn("surface or a volume", said)
         self.assertIn("VTP, VTU, VTK, VTI", sinew("fill", "--help", check=0).stdout)
+
+    def refused_within(self, megabytes, path):
+        """What is said of a file by a command that may take so much memory."""
+        bound = lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes * 10**6, megabytes * 10**6))
+        return sinew("info", path, check=2, preexec_fn=bound).stderr
+
+    def test_files_are_refused_by_their_first_bytes_and_by_their_size(self):
+        begin = b'<?xml version="1.0"?><VTKFile type="UnstructuredGrid" byte_order="LittleEndian">'
+        for name, head, size, words in (("a.vtu", b"", 3 << 30, "not a VTK XML file"), ("a.vti", b"", 3 << 30, "not a VTK XML file"),
+                                        ("a.vtk", b"", 3 << 30, "no legacy VTK file"), ("b.vtu", begin, 1 << 40, "too many for the"),
+                                        ("b.vtk", b"# vtk DataFile Version 3.0\n", 1 << 40, "too many for the")):
+            path = self.folder / name
+            path.write_bytes(head)
+            os.truncate(path, size)
+            self.assertRegex(self.refused_within(1000, path), f"^sinew: {path}: .*{words}.*; ")
+
+    def test_an_image_without_a_surface_takes_the_memory_of_its_values(self):
+        image = vtk.vtkImageData()
+        image.SetDimensions(400, 400, 400)
+        values = vtk.vtkFloatArray()
+        values.SetNumberOfValues(400 ** 3)
+        values.Fill(1)
+        image.GetPointData().SetScalars(values)
+        path = self.written(vtk.vtkXMLImageDataWriter(), image, "same.vti")
+        self.assertIn("no surface is in the image: its values reach from 1 to 1", sinew("info", path, check=2).stderr)
+        code = ("import resource, subprocess, sys; subprocess.run(sys.argv[1:], stdout=-3, stderr=-3); "
+                "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)")  # not of this large process
+        taken = subprocess.run([sys.executable, "-c", code, BIN / "sinew", "info", path], capture_output=True, text=True)
+        self.assertLess(int(taken.stdout) / 1000, 12 * 400 ** 3 / 1e6 + 100)  # MB, of the array alone
+
+    def test_a_wheel_of_many_corners_is_read_in_seconds(self):
+        corners, path = 50_000, self.folder / "wheel.obj"
+        places = [(math.cos(2 * math.pi * i / corners), math.sin(2 * math.pi * i / corners), z) for z in (0, 0.5)
+                  for i in range(corners)]
+        low = range(1, corners + 1)
+        sides = [(i, i % corners + 1, corners + i % corners + 1, corners + i) for i in low]
+        faces = [low[::-1], [corners + i for i in low], *sides]
+        path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in places) +
+                        "".join("f " + " ".join(map(str, face)) + "\n" for face in faces))
+        info = json.loads(sinew("info", path, "--json", "--quiet", check=0, timeout=20).stdout)
+        self.assertAlmostEqual(info["volume"], math.pi / 2, places=6)
+        self.assertTrue(info["closed"])
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;  // bytes
+constexpr double text_only = 1;  // memory per byte; arrays ask for theirs
 
 using Names = std::initializer_list<const char*>;
 
@@ -160,18 +160,11 @@ Dataset dataset_of(const VtuFile& file, const std::optional<Names>& names) {
   return data;
 }
 
-Dataset read_text(std::string_view text, const std::optional<Names>& names,
-                  const std::filesystem::path& path) {
-  try {
-    return dataset_of(VtuFile(text), names);
-  } catch (const Error& error) {
-    throw error.with_context({path.string()});
-  }
-}
-
 Dataset read_named(const std::filesystem::path& path, const std::optional<Names>& names) {
   try {
-    return read_text(read_file(path, largest_file), names, path);
+    return dataset_of(VtuFile(read_begun(path, text_only, check_start_of_xml)), names);
+  } catch (const Error& error) {
+    throw error.with_context({path.string()});
   } catch (const std::bad_alloc&) {
     throw bad_input({path.string()}, "needs more memory than there is", "read it elsewhere");
   }

@@ -2,8 +2,11 @@
 #include <sinew/io/detail/vtk_xml.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
+#include <sinew/core/file.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 
 namespace sinew {
@@ -11,9 +14,19 @@ namespace {
 
 constexpr std::string_view appended_path = "VTKFile/AppendedData";
 
-void check_start_and_end(std::string_view text) {
-  if (!text.starts_with('<') || text.substr(0, 4096).find("<VTKFile") == text.npos)
+constexpr std::size_t bytes_of_start = 4096;  // bytes that have the first tag
+
+}  // namespace
+
+void check_start_of_xml(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  if (!text.starts_with('<') || text.substr(0, bytes_of_start).find("<VTKFile") == text.npos)
     throw vtu_refused("it is not a VTK XML file");
+}
+
+namespace {
+
+void check_end(std::string_view text) {
   // An interrupted writer leaves a file without its last tag.
   if (!text.substr(0, text.find_last_not_of(" \t\r\n") + 1).ends_with("</VTKFile>"))
     throw vtu_refused("it is cut short");
@@ -89,9 +102,23 @@ void check_shared(const std::vector<XmlElement>& elements) {
 
 }  // namespace
 
+std::string read_begun(const std::filesystem::path& path, double memory_per_byte,
+                       void (*check_start)(std::string_view)) {
+  const std::string head = read_head(path, bytes_of_start);
+  if (!head.empty()) check_start(head);
+  const double available = available_memory();
+  const auto size = static_cast<double>(std::filesystem::file_size(path));
+  if (size * memory_per_byte > available)
+    throw bad_input("its " + bytes_text(size) + " are too many for the " + bytes_text(available) +
+                        " of memory that are free",
+                    "make the file smaller, or read it on a larger machine");
+  return read_file(path, std::numeric_limits<std::uint64_t>::max() - 1);
+}
+
 VtkXmlFile vtk_xml_file(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
-  check_start_and_end(text);
+  check_start_of_xml(text);
+  text.remove_prefix(text.find('<'));  // a byte order mark may come before
+  check_end(text);
   VtkXmlFile file{"", xml_elements(text, appended_path), {}};
   const XmlElement& root = file.elements.front();
   check_root(root);

@@ -5,6 +5,7 @@
 //     for (const auto piece : file.pieces()) read(file.arrays_in(piece, "Piece/Points"));
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +31,14 @@ struct VtkXmlFile {
   std::vector<const XmlElement*> arrays_in(std::span<const XmlElement> piece,
                                            const std::string& group) const;
 };
+
+/// Throws bad input where a file that begins so is no VTK XML file.
+void check_start_of_xml(std::string_view text);
+
+/// The text of a file that `check_start` takes by its first bytes. Throws what that does, without
+/// the path, and bad input for a file of which each byte's share of memory is not free.
+std::string read_begun(const std::filesystem::path& path, double memory_per_byte,
+                       void (*check_start)(std::string_view));
 
 /// Reads a file of any writer: as text, base64 or appended data, compressed by ZLib, LZ4 or not.
 /// `text` must outlive it. Throws bad input where that is no such file, cut short, or encoded in a

@@ -224,14 +224,18 @@ void check_faces(const Padded& image, std::size_t bytes) {
 
 }  // namespace
 
+Error no_surface(double low, double high) {
+  return bad_input("no surface is in the image: its values reach from " + three_digits(low) +
+                       " to " + three_digits(high) + " and do not change their sign",
+                   "give distances that are negative on one side, or subtract a level from it");
+}
+
 PolygonSoup zero_level(const LevelSet& image) {
   check(image);
   const Padded padded(image);
   if (padded.samples_inside() == 0) {
     const auto [low, high] = std::minmax_element(image.values.begin(), image.values.end());
-    throw bad_input("no surface is in the image: its values reach from " + three_digits(*low) +
-                        " to " + three_digits(*high) + " and do not change their sign",
-                    "give distances that are negative on one side, or subtract a level from it");
+    throw no_surface(*low, *high);
   }
   check_faces(padded, image.bytes);
   PolygonSoup soup = Contour(padded).soup();

@@ -18,6 +18,8 @@
 namespace sinew {
 namespace {
 
+constexpr std::string_view legacy_begin = "# vtk DataFile Version ";
+
 Error damaged(const std::string& what) { return bad_input(what, "write the file again"); }
 
 /// Numbers of a binary file, the first byte the highest.
@@ -352,12 +354,14 @@ PolygonSoup surface_of(Content content) {
 
 }  // namespace
 
+void check_start_of_legacy(std::string_view text) {
+  if (!text.starts_with(legacy_begin)) throw damaged("it is no legacy VTK file");
+}
+
 PolygonSoup legacy_surface(std::string_view text) {
+  check_start_of_legacy(text);
   Reader in(text);
-  constexpr std::string_view begin = "# vtk DataFile Version ";
-  const std::string_view first = in.line();
-  if (!first.starts_with(begin)) throw damaged("it is no legacy VTK file");
-  const double version = Reader(first.substr(begin.size())).number();
+  const double version = Reader(in.line().substr(legacy_begin.size())).number();
   in.line();  // the title
   const std::string_view coding = in.word();
   if (coding != "ASCII" && coding != "BINARY")

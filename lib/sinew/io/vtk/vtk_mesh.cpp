@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/vtk/vtk_mesh.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <locale>
@@ -19,7 +20,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::uint64_t largest_mesh = std::uint64_t{16} << 30;  // bytes
+constexpr double memory_per_byte = 8;  // what reads, cleans and searches a mesh takes
 
 using PieceElements = std::span<const XmlElement>;
 
@@ -183,8 +184,13 @@ PolygonSoup surface_of_image(const VtkXmlFile& file) {
   const Column scalars = file.arrays.column(array, count);
   image.bytes = count * size_of_type(array);
   if (scalars.components != 1) throw vtu_refused("the image's scalars have several components");
-  std::visit([&](const auto& values) { image.values.assign(values.begin(), values.end()); },
-             scalars.values);
+  std::visit(
+      [&](const auto& values) {
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        if (*low >= 0 || *high < 0) throw no_surface(*low, *high);
+        image.values.assign(values.begin(), values.end());
+      },
+      scalars.values);
   return zero_level(image);
 }
 
@@ -211,12 +217,12 @@ PolygonSoup surface_in(std::string_view text, const std::string& extension) {
 
 PolygonSoup read_vtk_mesh(const std::filesystem::path& path) {
   try {
-    const std::string text = read_file(path, largest_mesh);
-    try {
-      return surface_in(text, lower(path.extension().string()));
-    } catch (const Error& error) {
-      throw error.with_context({path.string()});
-    }
+    const std::string extension = lower(path.extension().string());
+    return surface_in(read_begun(path, memory_per_byte,
+                                 extension == ".vtk" ? check_start_of_legacy : check_start_of_xml),
+                      extension);
+  } catch (const Error& error) {
+    throw error.with_context({path.string()});
   } catch (const std::bad_alloc&) {
     throw bad_input({path.string()}, "it takes more memory than there is", "make it smaller");
   }

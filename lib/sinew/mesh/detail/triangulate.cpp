@@ -44,7 +44,7 @@ class EarCutter {
   }
 
   std::vector<std::array<int, 3>> triangles() {
-    if (left_.size() > max_corners) return fan();
+    if (left_.size() > max_corners) return halved();
     std::vector<std::array<int, 3>> result;
     while (left_.size() > 3) {
       const std::size_t ear = next_ear();
@@ -69,14 +69,19 @@ class EarCutter {
     return blunt;
   }
 
-  /// The ears of a convex polygon, in one go.
-  std::vector<std::array<int, 3>> fan() const {
+  /// Cuts every other corner of a convex polygon, again and again: no corner is of many triangles,
+  /// all of which would be near each other.
+  std::vector<std::array<int, 3>> halved() const {
     if (!blunt_corners().empty())
       throw bad_input("a face that is not convex has " + std::to_string(left_.size()) + " corners",
                       "export the mesh as triangles");
     std::vector<std::array<int, 3>> result;
-    for (std::size_t i = 0; i + 2 < left_.size(); ++i)
-      result.push_back({left_.back(), left_[i], left_[i + 1]});
+    for (std::vector<int> left = left_, kept; left.size() > 2; left = std::exchange(kept, {}))
+      for (std::size_t i = 0; i < left.size(); i += 2) {
+        kept.push_back(left[i]);
+        if (i + 1 < left.size())
+          result.push_back({left[i], left[i + 1], left[(i + 2) % left.size()]});
+      }
     return result;
   }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sinew/core/error.h>
 #include <sinew/core/triangles.h>
 
 namespace sinew {
@@ -41,6 +42,9 @@ struct LevelSet {
   std::size_t bytes = 0;            ///< of the values in the file, uncompressed
 };
 
+/// For an image whose values have one sign, from `low` to `high`.
+Error no_surface(double low, double high);
+
 /// Quadrilaterals around what has the sign that fewer samples of the image's border have (where
 /// that is none at all, the other sign): one corner in each cell through which the surface passes,
 /// moved to the zero level of the trilinear interpolation, as in dual contouring. Where the inside
@@ -50,6 +54,9 @@ struct LevelSet {
 PolygonSoup zero_level(const LevelSet& image);
 
 // Legacy files (.vtk), as text or binary, of versions up to 5.
+
+/// Throws bad input where a file that begins so is none of them.
+void check_start_of_legacy(std::string_view text);
 
 /// Reads what read_vtk_mesh() does. Counts are checked against the file's length before anything is
 /// allocated. Throws bad input.
