@@ -2,6 +2,8 @@
 #include <sinew/rig/detail/joint_zones.h>
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <numeric>
 #include <random>
 
 #include <sinew/rig/binding.h>
@@ -75,6 +77,18 @@ TEST(JointZones, WeightsDoNotJumpOnAShortBoneBetweenTwoJoints) {
                                        {"b", "a", {}, Vec3(0, 0, 0.35)},
                                        {"c", "b", {}, Vec3(0, 0, 0.7)}});
   EXPECT_LT(largest_change(finger, {0, 0, 0.32}, 0.2), 40 * step / 0.05);
+}
+
+/// Each is compared with each: of 3,000 they would be a day's work for a large body.
+TEST(JointZones, OfVeryManyChildrenTheNearestHundredShareAPoint) {
+  std::vector<BoneDefinition> bones = {{"trunk", "", Vec3(0, 0, -0.4), Vec3(0, 0, 0)}};
+  for (int i = 0; i < 1000; ++i)
+    bones.push_back({"child " + std::to_string(i), "trunk", {}, Vec3(0, 0, 0.4)});
+  const Skeleton broom = skeleton_of(std::move(bones));
+  const JointZones zones = joint_zones(broom, std::vector<double>(broom.size(), zone * zone), 1);
+  const std::vector<double> weights = weights_at(broom, zones, {0.02, 0, 0.05});
+  EXPECT_LE(std::count_if(weights.begin(), weights.end(), [](double one) { return one > 0; }), 101);
+  EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1, 1e-12);
 }
 
 TEST(JointZones, AHeadApartFromTheParentsTailHasAZone) {

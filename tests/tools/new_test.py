@@ -328,6 +328,14 @@ class New(unittest.TestCase):
             texts.add(self.scene.read_text())
         self.assertEqual(len(texts), 1)
 
+    def test_thousands_of_joints_in_one_take_seconds(self):
+        joint = "JOINT j{}\n{{\nOFFSET 0 0 0.1\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{{\nOFFSET 0 0 .1\n}}\n}}\n"
+        rig, joints = self.folder / "wide.bvh", 3000
+        rig.write_text("HIERARCHY\nROOT j0\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n" +
+                       "".join(joint.format(i) for i in range(1, joints)) + "}\nMOTION\nFrames: 2\nFrame Time: .03\n" +
+                       3 * joints * "0 " + "\n" + 3 * joints * "1 " + "\n")
+        sinew("new", SOURCE / "data/meshes/box.obj", rig, "-o", self.folder / "wide.yaml", check=0, timeout=40)
+
     def test_an_older_scene_is_kept(self):
         self.scene.write_text("mine")
         done = sinew("new", SOURCE / "data/meshes/box.obj", "-o", self.scene, check=2)

@@ -3,22 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sinew {
 namespace {
 
 // A head within this fraction of the parent's length from its tail is a joint at the tail.
 constexpr double near_tail = 0.25;
-constexpr double no_width = 1e-9;  // of a zone: below it, only the distances decide
+constexpr std::size_t max_sharing = 100;  // children of one joint: each is compared with each
+constexpr double no_width = 1e-9;         // of a zone: below it, only the distances decide
 
 /// Limit of a zone's length, m: both bones have joints at their other end.
-double longest_between(const JointZones& zones, const Skeleton& skeleton, int child) {
+double longest_between(const JointZones& zones, const Skeleton& skeleton,
+                       const std::vector<bool>& has_child, int child) {
   double longest = std::numeric_limits<double>::infinity();
   const int parent = zones.parent[child];
-  const auto has_child = [&](int bone) {
-    return std::find(zones.parent.begin(), zones.parent.end(), bone) != zones.parent.end();
-  };
-  if (has_child(child)) longest = skeleton.bones[child].length;
+  if (has_child[child]) longest = skeleton.bones[child].length;
   if (zones.parent[parent] != no_bone) longest = std::min(longest, skeleton.bones[parent].length);
   return longest;
 }
@@ -71,13 +71,27 @@ std::vector<double> parted(const JointZones& zones, const std::vector<int>& chil
   return parts;
 }
 
+/// Children with their distances; of very many the nearest.
+std::vector<std::pair<double, int>> sharing(const std::vector<int>& children,
+                                            const Distance& distance) {
+  std::vector<std::pair<double, int>> all;
+  all.reserve(children.size());
+  for (const int child : children) all.emplace_back(distance(child), child);
+  if (all.size() <= max_sharing) return all;
+  std::nth_element(all.begin(), all.begin() + max_sharing, all.end());
+  all.resize(max_sharing);
+  return all;
+}
+
 /// Adds the weights of the children of one bone, which has several; the rest of 1 is the parent's.
 void add_children(const JointZones& zones, int parent, const Vec3& point, const Distance& distance,
                   std::vector<BoneWeight>& weights) {
-  const std::vector<int>& children = zones.children[parent];
+  std::vector<int> children;
   std::vector<double> distances;
-  distances.reserve(children.size());
-  for (const int child : children) distances.push_back(distance(child));
+  for (const auto& [far, child] : sharing(zones.children[parent], distance)) {
+    distances.push_back(far);
+    children.push_back(child);
+  }
   const std::vector<double> near = parted(zones, children, distances, 1);
   double of_all = 0;
   for (std::size_t i = 0; i < children.size(); ++i)
@@ -121,7 +135,11 @@ JointZones joint_zones(const Skeleton& skeleton, const std::vector<double>& sect
                        double joint_zone) {
   const std::size_t bones = skeleton.size();
   JointZones zones;
-  for (const Bone& bone : skeleton.bones) zones.parent.push_back(bone.parent);
+  std::vector<bool> has_child(bones);
+  for (const Bone& bone : skeleton.bones) {
+    zones.parent.push_back(bone.parent);
+    if (bone.parent != no_bone) has_child[bone.parent] = true;
+  }
   zones.above.resize(bones);
   zones.children.resize(bones);
   zones.before.assign(bones, 0.0);
@@ -130,7 +148,7 @@ JointZones joint_zones(const Skeleton& skeleton, const std::vector<double>& sect
     const int child = static_cast<int>(b), parent = zones.parent[b];
     if (parent == no_bone) continue;
     const double length = std::min(joint_zone * std::sqrt((section[b] + section[parent]) / 2),
-                                   longest_between(zones, skeleton, child));
+                                   longest_between(zones, skeleton, has_child, child));
     if (!(length > 0)) continue;
     zones.above[b] = zone_above(skeleton, child, length);
     zones.children[parent].push_back(child);
