@@ -338,5 +338,27 @@ def kills(trial):
     trial.sinew("info", out, "--verify", codes={0})
 
 
+def resumptions(trial):
+    """--resume of a finished or stopped run by another scene is refused by key and leaves it as it is; its own goes on."""
+    mesh, out = trial.inside / "mine.obj", trial.inside / "r"
+    shutil.copy(trial.source / "data/meshes/box.obj", mesh)
+    words = ["simulate", scene(trial, duration=0.6), "-o", out, "--set", f"body.mesh={mesh}"]
+    trial.sinew(*words, *trial.chance.choice(([], ["--set", "solver.wall_time=0.02"])), codes={0, 130})
+    before = {file: file.read_bytes() for file in out.rglob("*") if file.is_file()}
+    key, value = trial.chance.choice([
+        ("body.mesh", trial.source / "data/meshes/arm.ply"), ("body.radius", 0.04), ("material.model", "bonded"),
+        ("material.young_modulus", 1e6), ("skeleton.scale", 1.1), ("motion.speed", 2), ("binding.method", "inside"),
+        ("world.drag", 1), ("solver.gravity", "[0, 0, -1]"), ("solver.duration", 9), ("output.interval", 0.01), ("mesh", None)])
+    if value is None:  # another content of the same name
+        mesh.write_text(mesh.read_text().replace("v -0.0777", "v -0.0767", 1))
+    _, _, said = trial.sinew(*words, "--resume", *(["--set", f"{key}={value}"] if value else []), codes={2})
+    if key.split(".")[-1] not in said or "--force" not in said:
+        raise AssertionError(f"{key}: {said}")
+    if before != {file: file.read_bytes() for file in out.rglob("*") if file.is_file()}:
+        raise AssertionError(f"{key}: a refused resumption has changed the run")
+    shutil.copy(trial.source / "data/meshes/box.obj", mesh)
+    trial.sinew(*words, "--resume", codes={0})
+
+
 KINDS = [settings, numbers, meshes, rigs, run_folders, records, checkpoints, elements, grids, yaml, names, links, surroundings,
-         settings, numbers, run_folders, kills]
+         settings, numbers, run_folders, kills, resumptions]
