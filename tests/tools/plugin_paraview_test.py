@@ -156,6 +156,97 @@ class Reader(SmallRun):
         self.assertIn("restore it from a copy", messages.text)
 
 
+    def refused(self, show):
+        """The one line that is shown, maybe several times, within seconds."""
+        begin = time.monotonic()
+        with Messages() as messages:
+            show()
+        self.assertLess(time.monotonic() - begin, 20)
+        lines = set(filter(None, messages.text.splitlines()))
+        self.assertEqual(len(lines), 1, messages.text)
+        return lines.pop()
+
+    def placed(self, path, content):
+        """Puts bytes, or what a function makes, in the place of a file."""
+        if path.is_dir() and not path.is_symlink():
+            path.rmdir()
+        path.unlink(missing_ok=True)
+        path.write_bytes(content) if isinstance(content, bytes) else content(path)
+
+    def test_series_that_are_none_are_refused_in_a_line(self):
+        run = self.folder / "run.json"
+        run.write_text("{}")
+        pvd = self.folder / "particles.pvd"
+
+        def naming(time, head="<?xml version='1.0'?>"):
+            return f'{head}<VTKFile><Collection><DataSet timestep="{time}" file="a.vtu"/></Collection></VTKFile>'.encode()
+        outside = self.folder.parent / f"{self.folder.name}.pvd"
+        outside.write_bytes(naming(0))
+        self.addCleanup(outside.unlink)
+        for content in (naming("abc"), naming("nan"), naming(0, "<?xml version='1.0' encoding='nonsense'?>"),
+                        naming(0, "<?xml version='1.0' encoding='utf-32'?>"), b"<VTKFile", b"", os.mkfifo,
+                        os.mkdir, lambda path: path.symlink_to(path), lambda path: path.symlink_to("/dev/zero"),
+                        lambda path: path.symlink_to(outside)):
+            self.placed(pvd, content)
+            line = self.refused(lambda: SinewRun(FileName=str(run)).UpdatePipeline())
+            self.assertRegex(line, r"^ERROR: SinewRun: .*particles\.pvd: .*restore it from a copy, or run the scene again")
+
+    def test_frames_outside_of_the_folder_are_not_read(self):
+        self.simulate("--set", "body.radius=0.04")
+        run, pvd = self.out / "run.json", self.out / "particles.pvd"
+        frame = sorted((self.out / "particles").glob("*.vtu"))[0]
+        other = self.folder / "other.vtu"
+        other.write_bytes(frame.read_bytes())
+        (self.out / "link.vtu").symlink_to(other)
+        os.mkfifo(self.out / "pipe.vtu")
+        for name, is_read in ((frame.relative_to(self.out), True), ("../other.vtu", False), (other, False),
+                              ("link.vtu", False), ("pipe.vtu", False), ("particles", False)):
+            pvd.write_text(f'<VTKFile><Collection><DataSet timestep="0" file="{name}"/></Collection></VTKFile>')
+            source = SinewRun(FileName=str(run))
+            source.UpdatePipelineInformation()
+            source.Series = ["particles"]
+            if is_read:
+                self.assertGreater(blocks(fetched(source))["particles"].GetNumberOfPoints(), 0)
+            else:
+                self.assertIn("cannot be read; see sinew info", self.refused(source.UpdatePipeline))
+
+    def table(self, *rows, name="bones"):
+        (self.folder / "run.json").write_text("{}")
+        path = self.folder / f"{name}.csv"
+        if rows:
+            path.write_text("\n".join(rows))
+        source = SinewTables(FileName=str(self.folder / "run.json"), Table=name)
+        source.UpdatePipeline()
+        found = servermanager.Fetch(source)
+        return {found.GetColumnName(i): [found.GetValue(row, i).ToDouble() for row in range(found.GetNumberOfRows())]
+                for i in range(found.GetNumberOfColumns())}
+
+    def test_a_torn_row_alone_is_left_out(self):
+        rows = ["time,bone,x,y", "0,a,1,2", "0,b,3,", "1,a,5,6"]
+        whole = self.table(*rows, "")
+        self.assertEqual((whole["time"], whole["a x"], whole["b x"][:1]), ([0, 1], [1, 5], [3]))
+        for torn in ("2,a,7.1e,9\n", "2,a,7\n", "x,a,7,9\n", "2,a,7,1", "2,\"a"):
+            numpy.testing.assert_equal(self.table(*rows, torn), whole)
+        self.assertEqual(self.table("time,volume", "0,1", "1,2e", "", name="metrics"), {"time": [0], "volume": [1]})
+        self.assertEqual(self.table("time,bone,x", ""), {"time": []})
+
+    def test_tables_take_the_time_of_their_rows(self):
+        names = ",".join(f"c{i}" for i in range(21))
+        rows = [f"{at},b{bone}," + ",".join(["1.25"] * 21) for at in range(10) for bone in range(1500)]
+        begin = time.process_time()
+        found = self.table(f"time,bone,{names}", *rows, "")
+        self.assertEqual(len(found), 1 + 21 * 1500)
+        self.assertLess(time.process_time() - begin, 10)
+
+    def test_tables_that_are_none_are_refused_in_a_line(self):
+        path = self.folder / "bones.csv"
+        for content in (os.mkfifo, os.mkdir, lambda path: path.symlink_to("/dev/zero"), lambda path: path.symlink_to(path),
+                        b"time,bone,x\n0,a," + b"1" * 200_000 + b"\n",
+                        b"time,bone,x\n" + b"".join(b"%d,b%d,1\n" % (i, i) for i in range(1000))):
+            self.placed(path, content)
+            self.assertRegex(self.refused(self.table), r"^ERROR: SinewTables: .*restore it from a copy, or run the scene again")
+
+
 class Packing(SmallRun):
     def filled_by_command(self, mesh, *words):
         command("fill", mesh, *words, "-o", self.folder / "filled.vtu", check=0)

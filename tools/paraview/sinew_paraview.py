@@ -161,8 +161,12 @@ class SinewTables(VTKPythonAlgorithmBase):
         with errors_shown(self):
             self._seen = run_files.time_of(self._path())
             table = run_files.table_of(self._path())
+            columns = output.GetRowData()
+            columns.AllocateArrays(len(table))
             for label, values in table.items():
-                output.AddColumn(texts(label, values) if isinstance(values, list) else vtk_array(label, values))
+                column = texts(None, values) if isinstance(values, list) else vtk_array(None, values)
+                columns.AddArray(column)  # which compares names with all there are
+                column.SetName(label)
         return 1
 
 

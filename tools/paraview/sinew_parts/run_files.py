@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The files of a run: its series, read by ParaView's own reader, and its tables."""
 import csv
+import io
+import math
 import os
 import xml.etree.ElementTree as ET
 
@@ -15,18 +17,35 @@ TABLES = ("metrics", "bones", "supports", "probes")
 OWNERS = ("bone", "name")  # columns that say whose a row is
 
 
+def is_own(path, folder):
+    """Whether it is a regular file below a folder, wherever links lead: others may block, or be somebody else's."""
+    real = os.path.realpath(path)
+    return real.startswith(os.path.join(os.path.realpath(folder), "")) and os.path.isfile(real)
+
+
+def damaged(path, why):
+    return Refused(f"{path}: {getattr(why, 'strerror', None) or why}; restore it from a copy, or run the scene again")
+
+
+def checked(path):
+    """A file of a run's folder. Refused where it is no regular file, or leads out of the folder."""
+    if not is_own(path, os.path.dirname(path)):
+        raise damaged(path, "is no regular file of this folder")
+    return path
+
+
 def rows_of(pvd):
     """Times and files that a PVD names; none where it is not there."""
-    try:
-        rows = ET.parse(pvd).getroot().iter("DataSet")
-    except FileNotFoundError:
+    if not os.path.lexists(pvd):
         return []
-    except ET.ParseError as error:
-        raise Refused(f"{pvd}: {error}; restore it from a copy, or run the scene again") from None
-    rows = [(row.get("timestep"), row.get("file")) for row in rows]
-    if any(None in row for row in rows):
-        raise Refused(f"{pvd}: a row has no timestep or no file; restore it from a copy, or run the scene again")
-    return [(float(time), os.path.join(os.path.dirname(pvd), file)) for time, file in rows]
+    try:
+        rows = [(row.get("timestep"), row.get("file")) for row in ET.parse(checked(pvd)).getroot().iter("DataSet")]
+    except (OSError, ET.ParseError, LookupError, ValueError) as error:  # the last two: of its encoding
+        raise damaged(pvd, error) from None
+    times = [number(time or "none") for time, _ in rows]
+    if not all(file and time is not None and math.isfinite(time) for time, (_, file) in zip(times, rows)):
+        raise damaged(pvd, "a row has no file, or no timestep in seconds")
+    return [(time, os.path.join(os.path.dirname(pvd), file)) for time, (_, file) in zip(times, rows)]
 
 
 def folder_of_run(file):
@@ -54,12 +73,14 @@ def state_of(folder):
 def open_series(folder):
     """Those that have frames."""
     found = ((name, rows_of(os.path.join(folder, f"{name}.pvd"))) for name in SERIES)
-    return [OpenSeries(name, rows) for name, rows in found if rows]
+    return [OpenSeries(name, folder, rows) for name, rows in found if rows]
 
 
-def complete(path):
-    """Whether a file ends as XML of VTK does; its reader, given one that was cut, reports an error or crashes."""
+def complete(path, folder):
+    """Whether a file of a run ends as XML of VTK does; its reader, given one that was cut, reports an error or crashes."""
     try:
+        if not is_own(path, folder):
+            return False
         with open(path, "rb") as file:
             file.seek(max(os.path.getsize(path) - 64, 0))
             return file.read().rstrip().endswith(b"</VTKFile>")
@@ -78,14 +99,14 @@ def readable(path):
 class OpenSeries:
     """The files of one series, read by ParaView's own reader."""
 
-    def __init__(self, name, rows):
-        self.name, self.rows = name, rows
+    def __init__(self, name, folder, rows):
+        self.name, self.folder, self.rows = name, folder, rows
         self.reader, self.number = vtkXMLUnstructuredGridReader(), 0
 
     def choose(self, selection):
         """Offers its arrays: those of the first frame that can be read."""
         for _, path in (self.rows[0], self.rows[len(self.rows) // 2], self.rows[-1]):
-            if not complete(path):
+            if not complete(path, self.folder):
                 continue
             self.reader.SetFileName(path)
             self.reader.UpdateInformation()
@@ -115,63 +136,61 @@ class OpenSeries:
     def at(self, time, selection):
         """The frame at a time or the last before it; before all of them the first."""
         row = max((row for row in self.rows if row[0] <= time + 1e-9 * abs(time)), default=self.rows[0])
-        number = self._read(row[1], selection) if complete(row[1]) else None
+        number = self._read(row[1], selection) if complete(row[1], self.folder) else None
         if number is None or (number == 0 and (self.number or not readable(row[1]))):  # all frames have the same points
-            raise Refused(f"{row[1]}: cannot be read; see sinew info {os.path.dirname(os.path.dirname(row[1]))} --verify")
+            raise Refused(f"{row[1]}: cannot be read; see sinew info {self.folder} --verify")
         self.number = number
         shown = vtkUnstructuredGrid()
         shown.ShallowCopy(self.reader.GetOutput())
         return shown
 
 
-def column(values):
-    """Numbers, where empty ones are not-a-number, or None for texts."""
+def number(text):
+    """Not-a-number where it is empty, None where it is no number."""
     try:
-        return numpy.array([float(value) if value else numpy.nan for value in values])
+        return float(text) if text else math.nan
     except ValueError:
         return None
 
 
 def read_csv(path):
+    """Columns of numbers, or lists of texts, by their names: what a column is, its first row says. Leaves out rows that
+    have something else there or were cut, as the last one of a run in progress."""
+    if not os.path.lexists(path):
+        raise Refused(f"{path}: is not there; run `sinew measure {os.path.dirname(path)}` for metrics, or choose another table")
     try:
-        with open(path, newline="", encoding="utf-8", errors="replace") as file:
-            rows = list(csv.reader(file))
-    except FileNotFoundError:
-        raise Refused(f"{path}: is not there; run `sinew measure {os.path.dirname(path)}` for metrics, or choose another table") \
-            from None
-    rows = [row for row in rows if len(row) == len(rows[0])]  # the last one of a run in progress may be torn
-    return {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])} if rows else {}
-
-
-def plain_table(columns):
-    """A row for each row of the file."""
-    table = {}
-    for name, values in columns.items():
-        numbers = column(values)
-        table[name] = values if numbers is None else numbers
-    return table
+        with open(checked(path), newline="", encoding="utf-8", errors="replace") as file:
+            text = file.read()
+        names, *rows = csv.reader(io.StringIO(text[:text.rfind("\n") + 1], newline="")) if "\n" in text else [[]]
+    except (OSError, csv.Error) as error:
+        raise damaged(path, error) from None
+    first = dict(zip(names, rows[0] if rows else ()))
+    kinds = [str if name in OWNERS or name != "time" and number(first.get(name)) is None else number for name in names]
+    rows = [[kind(text) for kind, text in zip(kinds, row)] for row in rows if len(row) == len(names)]
+    columns = list(zip(*(row for row in rows if None not in row))) or [()] * len(names)
+    return {name: list(column) if kind is str else numpy.array(column, float)
+            for name, kind, column in zip(names, kinds, columns)}
 
 
 def wide_table(columns):
     """A row for each time: the columns of each bone, support or probe beside each other, by its name."""
-    owners = [name for name in OWNERS if name in columns]
-    if not owners or "time" not in columns:
-        return plain_table(columns)
-    owner, times = columns[owners[0]], column(columns["time"])
-    steps, row_of = numpy.unique(times, return_inverse=True)
-    table = {"time": steps}
-    for who in dict.fromkeys(owner):
-        of = numpy.array([name == who for name in owner])
-        for name, values in columns.items():
-            numbers = column(values)
-            if name in ("time", owners[0]) or numbers is None:
-                continue
-            table[f"{who} {name}"] = numpy.full(len(steps), numpy.nan)
-            table[f"{who} {name}"][row_of[of]] = numbers[of]
-    return table
+    owner = next((columns[name] for name in OWNERS if name in columns), None)
+    if owner is None or "time" not in columns:
+        return columns
+    times, row_of = numpy.unique(columns["time"], return_inverse=True)
+    number_of = {name: i for i, name in enumerate(dict.fromkeys(owner))}
+    if len(number_of) * len(times) > 100 * len(owner):
+        raise Refused("a table has other names at each time; restore it from a copy, or run the scene again")
+    cells = numpy.array([number_of[name] for name in owner], int), row_of
+    wide = {}
+    for name, values in columns.items():
+        if name != "time" and not isinstance(values, list):
+            wide[name] = numpy.full((len(number_of), len(times)), numpy.nan)
+            wide[name][cells] = values
+    return {"time": times, **{f"{who} {name}": values[i] for who, i in number_of.items() for name, values in wide.items()}}
 
 
 def table_of(path):
     """Columns of numbers, or lists of texts, by their names."""
     columns = read_csv(path)
-    return plain_table(columns) if os.path.basename(path) == "metrics.csv" else wide_table(columns)
+    return columns if os.path.basename(path) == "metrics.csv" else wide_table(columns)
