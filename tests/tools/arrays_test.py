@@ -295,6 +295,17 @@ class Results(SmallRun):
         text = (self.out / "bones.csv").read_text()
         (self.out / "bones.csv").write_text(text[:-20])
         self.assertEqual(len(sinew.open_run(self.out).bones["time"]), 25)
+        lines = text.splitlines(keepends=True)
+        for torn in ("0.5,upper,1e", lines[-1][:-1], lines[-1].replace(",", ",x", 2), "0.5,\"upper"):
+            (self.out / "bones.csv").write_text("".join(lines[:-1]) + torn)
+            self.assertEqual({len(column) for column in map(list, dict(sinew.open_run(self.out).bones).values())}, {25}, torn)
+        (self.out / "bones.csv").write_text(lines[0] + lines[1].replace("lower", "7"))
+        self.assertEqual(list(sinew.open_run(self.out).bones["bone"]), ["7"])
+        for place in (os.mkfifo, os.mkdir, lambda path: path.symlink_to(path), lambda path: path.write_text("a" * 200_000 + "\n")):
+            (self.out / "bones.csv").rename(self.folder / f"old{id(place)}")
+            place(self.out / "bones.csv")
+            with self.assertRaisesRegex(sinew.Error, "bones.csv: .*restore it from a copy, or run the scene again"):
+                sinew.open_run(self.out).bones
         (self.out / "bones.csv").unlink()
         with self.assertRaisesRegex(sinew.Error, "bones.csv: No such file"):
             sinew.open_run(self.out).bones

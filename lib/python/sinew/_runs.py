@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs on the disk: their frames, their tables, whatever else of them is in arrays."""
 import csv
+import io
 import os
 
 import numpy
@@ -22,22 +23,31 @@ def table(columns, units):
     return frame
 
 
-def _column(values):
+def _number(text):
+    """Not-a-number where it is empty, None where it is no number."""
     try:
-        return numpy.array([float(value) if value else numpy.nan for value in values])
+        return float(text) if text else numpy.nan
     except ValueError:
-        return numpy.array(values)
+        return None
 
 
 def read_table(path):
-    """The columns of a CSV file: numbers, empty ones not-a-number, or texts."""
+    """The columns of a CSV file of a run: numbers, empty ones not-a-number, or texts, as its first row has them. Leaves out
+    rows that have something else there or were cut, as the last one of a run in progress."""
     try:
+        if os.path.lexists(path) and not os.path.isfile(path):
+            raise OSError(0, "is no regular file")  # which to open may block
         with open(path, newline="", encoding="utf-8", errors="surrogateescape") as file:
-            rows = list(csv.reader(file))
-    except OSError as error:
-        raise _sinew.Error(f"{path}: {error.strerror}; restore it from a copy, or run the scene again") from None
-    rows = [row for row in rows if len(row) == len(rows[0])]  # the last one of a run in progress may be torn
-    return {name: _column([row[i] for row in rows[1:]]) for i, name in enumerate(rows[0])} if rows else {}
+            text = file.read()
+        names, *rows = csv.reader(io.StringIO(text[:text.rfind("\n") + 1], newline="")) if "\n" in text else [[]]
+    except (OSError, csv.Error) as error:
+        why = getattr(error, "strerror", error)
+        raise _sinew.Error(f"{path}: {why}; restore it from a copy, or run the scene again") from None
+    first = dict(zip(names, rows[0] if rows else ()))
+    kinds = [str if name == "bone" or _number(first.get(name)) is None else _number for name in names]
+    rows = [[kind(text) for kind, text in zip(kinds, row)] for row in rows if len(row) == len(names)]
+    columns = list(zip(*(row for row in rows if None not in row))) or [()] * len(names)
+    return {name: numpy.array(column, str if kind is str else float) for name, kind, column in zip(names, kinds, columns)}
 
 
 class Frame:
