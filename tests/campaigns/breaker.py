@@ -52,11 +52,13 @@ class Trial:
         self.outside.mkdir()
         (self.outside / "precious").write_text("precious")
 
-    def sinew(self, *words, text=0, declared=0, codes=frozenset(CODES), limits=(), environment=None,
-              silent=False, before=None, after=None):
+    def sinew(self, *words, **how):
+        return self.run(self.bin / "sinew", *words, **how)
+
+    def run(self, *words, text=0, declared=0, codes=frozenset(CODES), limits=(), environment=None,
+            silent=False, before=None, after=None):
         """Runs a command. text, declared: bytes of text files that it reads, and of binary ones, uncompressed;
         silent: nobody hears its messages."""
-        words = [self.bin / "sinew", *words]
         self.commands.append(" ".join(map(repr, map(os.fsdecode, words))))
 
         def prepare():

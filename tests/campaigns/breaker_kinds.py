@@ -11,6 +11,7 @@ import struct
 import subprocess
 import time
 import zlib
+from pathlib import Path
 
 SCENE = """body: {{mesh: {source}/data/meshes/box.obj, radius: {radius}}}
 material: {{model: {model}}}
@@ -121,15 +122,16 @@ def rigs(trial):
     trial.sinew(*trial.chance.choice((["info", path], ["new", path])), text=len(data), declared=len(data))
 
 
-def run_folders(trial):
-    """A file of a run is damaged, is something else, or is gone."""
+def damaged_run(trial, skipped=".lock"):
+    """A run of which a file is damaged, is something else, or is gone, and the bytes of its files. `skipped`: the end of names
+    of files that are left."""
     run = trial.small_run()
-    files = sorted(file for file in run.rglob("*") if file.is_file() and file.name != ".lock")
+    files = sorted(file for file in run.rglob("*") if file.is_file() and not file.name.endswith(skipped))
     for _ in range(trial.chance.choice((1, 1, 3))):
         file = trial.chance.choice(files)
         if not file.is_file() or file.is_symlink():
             continue
-        how = trial.chance.randrange(5)
+        how = trial.chance.randrange(6)
         data = file.read_bytes()
         file.unlink()
         if how < 2:
@@ -138,11 +140,30 @@ def run_folders(trial):
             file.mkdir()
         elif how == 3:
             file.symlink_to(trial.chance.choice((trial.outside / "precious", file, "/dev/zero", "/dev/null", "nowhere")))
-    size = sum(file.stat().st_size for file in run.rglob("*") if file.is_file() and not file.is_symlink())
+        elif how == 4:
+            os.mkfifo(file)
+    return run, sum(file.stat().st_size for file in run.rglob("*") if file.is_file() and not file.is_symlink())
+
+
+def run_folders(trial):
+    run, size = damaged_run(trial)
     words = trial.chance.choice((["measure", run], ["info", run], ["info", run, "--verify"], ["export", run, "--to", "xyz"],
                                  ["simulate", run / "scene.yaml", "-o", run, "--resume"],
                                  ["simulate", trial.samples / "run.yaml", "-o", run, "--force"]))
     trial.sinew(*words, text=size, declared=4 * size)
+
+
+def readers(trial):
+    """What the Python package and the plugin for ParaView read of such a run; VTK's reader has faults of its own."""
+    how, where, skipped = trial.chance.choice((("package", trial.bin.parent / "python", ".lock"),
+                                               ("plugin", trial.source / "tools/paraview", (".lock", ".vtu"))))
+    run, size = damaged_run(trial, skipped)
+    if trial.chance.random() < 0.2:
+        pvd = run / "particles.pvd"
+        place = trial.chance.choice((trial.outside / "precious", "../../out/precious", "\x1b[2J", "particles", "/dev/zero", ""))
+        if pvd.is_file() and not pvd.is_symlink():
+            pvd.write_bytes(pvd.read_bytes().replace(b"particles/particles_000001.vtu", os.fsencode(place), 1))
+    trial.run("/usr/bin/python3", Path(__file__).with_name("read_run.py"), how, where, run, text=size + 10**7, codes={0, 2})
 
 
 def records(trial):
@@ -360,5 +381,5 @@ def resumptions(trial):
     trial.sinew(*words, "--resume", codes={0})
 
 
-KINDS = [settings, numbers, meshes, rigs, run_folders, records, checkpoints, elements, grids, yaml, names, links, surroundings,
-         settings, numbers, run_folders, kills, resumptions]
+KINDS = [settings, numbers, meshes, rigs, run_folders, readers, records, checkpoints, elements, grids, yaml, names, links, surroundings,
+         settings, numbers, run_folders, readers, kills, resumptions]
