@@ -27,7 +27,7 @@ constexpr std::size_t max_before_count = 4096;  // bytes
 constexpr std::uint64_t max_bytes_per_particle = 2560, max_bytes_beside = 1 << 20;
 
 Error no_checkpoint(const std::string& what) {
-  return bad_input(what, "remove the file to go on from an older checkpoint");
+  return bad_input(what, "remove the file to go on without it");
 }
 
 // Visit all values in the order of the file, for both the writer and the reader: archive(name,
