@@ -35,8 +35,7 @@ Dataset dataset_of(FrameData& frame, const std::string& series) {
 /// A moment, with what Python had set until then.
 struct SavedMoment {
   SimulationState state;
-  std::vector<std::string> bones;  ///< of the skeleton that was posed
-  std::optional<Posing> posing;    ///< where set_pose() was called
+  std::optional<Posing> posing;  ///< where set_pose() was called
   Points own_forces;
 };
 
@@ -172,15 +171,13 @@ class Stepped {
 
   SavedMoment save() const {
     refuse_while_stepping();
-    SavedMoment saved{simulation_->save(), bones(), std::nullopt, {}};
+    SavedMoment saved{simulation_->save(), std::nullopt, {}};
     if (is_posed_) saved.posing = posing_;
     if (own_forces_) saved.own_forces = own_forces_->now();
     return saved;
   }
   void restore(const SavedMoment& saved) {
     refuse_while_stepping();
-    if (saved.bones != bones())
-      throw bad_input("the state is of a body with other bones", "restore one of this simulation");
     simulation_->restore(saved.state);
     if (is_posed_ || saved.posing) {
       posing_ = saved.posing ? *saved.posing : *first_posing_;
@@ -291,6 +288,9 @@ class Stepped {
 template <>
 class pybind11::detail::type_caster<sinew::python::Stepped>
     : public pybind11::detail::made_caster<sinew::python::Stepped> {};
+template <>
+class pybind11::detail::type_caster<sinew::python::SavedMoment>
+    : public pybind11::detail::made_caster<sinew::python::SavedMoment> {};
 
 namespace sinew::python {
 

@@ -14,12 +14,14 @@
 namespace sinew::forged_states_test {
 namespace {
 
-Simulation begin(Precision precision) {
+Simulation begin(
+    Precision precision, const std::function<void(Body&)>& change = [](Body&) {}) {
   constexpr int planes = 17;
   constexpr double r = 0.01;
   const Settings settings = test::in(precision, test::box_scene(planes));
   const Points rest = test::fcc_box(7, 7, planes, r);
   Body body = test::make_body(settings, rest);
+  change(body);
   const Particles particles = test::shaken(rest, body.material, 0, 0);
   const double step = test::step_of(settings, body, 0.5);
   return {body, motion_of(settings, body.skeleton), particles, stepping_of(settings.solver, step)};
@@ -48,6 +50,22 @@ TEST(ForgedStates, HaveNoParticleFarAway) {
     expect_refused(
         Precision::binary64,
         [&](auto& state) { std::get<MovingInDouble>(state.moving).x[2][5] = place; }, "far away");
+}
+
+TEST(SavedStates, AreOfOneBody) {
+  const SimulationState state = begin(Precision::binary64).save();
+  const std::function<void(Body&)> changes[] = {
+      [](Body& body) { body.rest[3].x() += 1e-9; },
+      [](Body& body) { body.binding.influences[5].weight *= 0.5; },
+      [](Body& body) { body.skeleton.bones[0].name += '2'; },
+      [](Body& body) { body.skeleton.bones[1].rest.origin.z() += 1e-9; }};
+  for (const auto& change : changes)
+    test::expect_bad_input([&] { begin(Precision::binary64, change).restore(state); },
+                           {"others", "restore one that the same scene has saved"});
+  SimulationState from_file = state;
+  from_file.body = 0;  // of a checkpoint, which knows its run
+  begin(Precision::binary64, changes[0]).restore(from_file);
+  begin(Precision::binary64).restore(state);
 }
 
 }  // namespace

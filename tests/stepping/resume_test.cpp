@@ -340,9 +340,13 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
     test::expect_bad_input([&] { simulation.restore(state); }, {why});
     EXPECT_EQ(state_hash(simulation.particles()), before);
   };
-  refuse(bend("", binary64, 17), good, "particles, not");
+  SimulationState from_file = good;
+  from_file.body = 0;
+  for (const World& other : {bend("", binary64, 17), tearing("", MaterialModel::bonded)}) {
+    refuse(other, good, "its particles at rest");
+    refuse(other, from_file, "particles, not");
+  }
   refuse(bend("", binary32), good, "precision");
-  refuse(tearing("", MaterialModel::bonded), good, "particles, not");
   refuse(with(bend("", binary64, 17), NeighborSearch::cells), bend("", binary32, 17).begin().save(),
          "single precision");
   SimulationState bad = good;

@@ -295,8 +295,11 @@ class Made(unittest.TestCase):
         self.assertEqual(other.positions.tobytes(), expected[0])
         bones = [{"name": "only", "head": [0, 0, 0], "tail": [0, 0, 0.5]}]
         fewer = sinew.Simulation(sinew.make_scene(BAR | {"skeleton": {"bones": bones}, "motion": {}}, self.body), self.body)
-        with self.assertRaisesRegex(sinew.Error, "other bones"):
-            fewer.restore(turned)
+        farther = sinew.Body(self.body.points + [0, 0, 1e-6], 0.01)
+        others = sinew.Simulation(self.scene, farther)  # as many particles, bones of the same names
+        for wrong in (fewer, others):
+            with self.assertRaisesRegex(sinew.Error, "does not fit this body.*restore one that the same scene has saved"):
+                wrong.restore(turned)
 
     def test_positions_are_a_view(self):
         simulation = sinew.Simulation(self.scene, self.body)

@@ -2,10 +2,28 @@
 #include <sinew/body/body.h>
 
 #include <algorithm>
+#include <functional>
 
+#include <sinew/core/parallel.h>
 #include <sinew/material/laws.h>
 
 namespace sinew {
+namespace {
+
+/// A hash of the hashes of pieces of [0, count), in parallel.
+void add_pieces(std::size_t count, Hash& hash,
+                const std::function<void(std::size_t i, Hash& piece)>& add_one) {
+  constexpr std::size_t grain = 1 << 16;
+  std::vector<std::uint64_t> pieces((count + grain - 1) / grain);
+  parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+    Hash piece;
+    for (std::size_t i = begin; i < end; ++i) add_one(i, piece);
+    pieces[begin / grain] = piece.value();
+  });
+  hash.add(pieces.data(), pieces.size() * sizeof pieces[0]);
+}
+
+}  // namespace
 
 double near_at_rest(const Material& material) {
   return std::max(rest_neighbor_range(material.pair.r), law_of(material).range(material));
@@ -37,6 +55,31 @@ Material lightest(const Body& body) {
   if (!body.density.empty())
     material.mass *= *std::min_element(body.density.begin(), body.density.end());
   return material;
+}
+
+Hash hash_at_rest(const Body& body) {
+  Hash hash;
+  add_pieces(body.rest.size(), hash, [&](std::size_t i, Hash& piece) {
+    piece.add(body.rest[i].data(), 3 * sizeof(double));
+    for (const Influence& influence : body.binding.of(i)) {
+      piece.add(&influence.bone, sizeof influence.bone);
+      piece.add(&influence.weight, sizeof influence.weight);
+    }
+  });
+  const auto& numbers = body.material_number;  // the meshes of parts may have changed
+  hash.add(numbers.data(), numbers.size() * sizeof(std::int32_t));
+  return hash;
+}
+
+Hash hash_of(const Body& body) {
+  Hash hash = hash_at_rest(body);
+  hash.add(&body.material.pair.r, sizeof body.material.pair.r);
+  for (const Bone& bone : body.skeleton.bones) {
+    hash.add(bone.name + '\n');
+    hash.add(bone.rest.origin.data(), 3 * sizeof(double));
+    hash.add(bone.rest.rotation.data(), 9 * sizeof(double));
+  }
+  return hash;
 }
 
 }  // namespace sinew

@@ -13,6 +13,7 @@
 #include <sinew/body/bone_force.h>
 #include <sinew/body/pass_through.h>
 #include <sinew/body/rigid_damping.h>
+#include <sinew/core/hash.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/rest_neighbors.h>
 #include <sinew/material/local_strength.h>
@@ -65,6 +66,11 @@ inline double mass_of(const Body& body, std::size_t id, double common) {
 double total_mass(const Body& body, double common);
 /// The material with the mass of the lightest particle.
 Material lightest(const Body& body);
+
+/// What runs go on by: the particles at rest, what binds them, and whose material is whose.
+Hash hash_at_rest(const Body& body);
+/// The same with the size of the particles and the bones at rest.
+Hash hash_of(const Body& body);
 
 /// Whether any of its particles keeps its volume.
 inline bool keeps_volume(const Body& body) {

@@ -136,6 +136,7 @@ struct GuardState {
 struct SimulationState {
   std::int64_t steps = 0;
   EvenSteps even;
+  std::uint64_t body = 0;  ///< checksum of the body, in memory alone; 0: not known
   LedgerEntries ledger;
   LedgerEntries world_ledger;  ///< of obstacles, fields, muscles and pins
   double held_at_start = 0;    ///< kinetic energy of what pins hold, J
@@ -174,8 +175,26 @@ struct SimulationState {
 
 /// The saved state is not one of this stepper, or not valid.
 inline Error not_a_state(const std::string& why) {
-  return bad_input("the saved state does not fit this body: " + why,
-                   "begin again without --resume");
+  return bad_input(
+      "the saved state does not fit this body: " + why,
+      "restore one that the same scene has saved, or begin the run again with --force");
+}
+
+inline bool is_finite(const LedgerEntries& ledger) {
+  return std::isfinite(ledger.work) && std::isfinite(ledger.dissipation) &&
+         std::isfinite(ledger.power);
+}
+
+/// Throws bad input unless the numbers that are of the whole body are valid.
+inline void check_totals(const SimulationState& state, std::size_t particles) {
+  if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
+  if (!is_finite(state.ledger) || !is_finite(state.world_ledger) ||
+      !std::isfinite(state.held_at_start))
+    throw not_a_state("its energies are not finite");
+  const LimitedSpeeds& limited = state.limited;
+  if (!std::isfinite(limited.energy) || !limited.impulse.allFinite() ||
+      (!limited.in_frame.empty() && limited.in_frame.size() != particles))
+    throw not_a_state("what it says of limited speeds is not valid");
 }
 
 /// Throws bad input unless there are `particles` positions and velocities, all of them finite.

@@ -10,7 +10,6 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
-#include <sinew/core/parallel.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/run/run_record.h>
@@ -58,31 +57,9 @@ void add(const Triangles& surface, Hash& hash) {
   for (const auto& face : surface.faces) hash.add(face.data(), sizeof face);
 }
 
-/// A hash of the hashes of pieces of [0, count), in parallel.
-void add_pieces(std::size_t count, Hash& hash,
-                const std::function<void(std::size_t i, Hash& piece)>& add_one) {
-  constexpr std::size_t grain = 1 << 16;
-  std::vector<std::uint64_t> pieces((count + grain - 1) / grain);
-  parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
-    Hash piece;
-    for (std::size_t i = begin; i < end; ++i) add_one(i, piece);
-    pieces[begin / grain] = piece.value();
-  });
-  hash.add(pieces.data(), pieces.size() * sizeof pieces[0]);
-}
-
 /// The body at rest, its attachment, and its skin.
 std::uint64_t body_hash(const Body& body, const Triangles& surface) {
-  Hash hash;
-  add_pieces(body.rest.size(), hash, [&](std::size_t i, Hash& piece) {
-    piece.add(body.rest[i].data(), 3 * sizeof(double));
-    for (const Influence& influence : body.binding.of(i)) {
-      piece.add(&influence.bone, sizeof influence.bone);
-      piece.add(&influence.weight, sizeof influence.weight);
-    }
-  });
-  const auto& numbers = body.material_number;  // the meshes of parts may have changed
-  hash.add(numbers.data(), numbers.size() * sizeof(std::int32_t));
+  Hash hash = hash_at_rest(body);
   add(surface, hash);
   return hash.value();
 }
