@@ -38,4 +38,21 @@ PYBIND11_MODULE(_sinew, module) {
   sinew::python::bind_inspection(module);
   sinew::python::bind_simulation(module);
   sinew::python::bind_runs(module);
+/// Refuses objects of pybind11's base class, which end the interpreter: pickle's protocols 0 and 1
+/// make one of whatever they are given.
+void refuse_bases() {
+  auto* base = reinterpret_cast<PyTypeObject*>(py::detail::get_internals().instance_base);
+  static const newfunc make = base->tp_new;
+  base->tp_new = [](PyTypeObject* type, PyObject* words, PyObject* named) -> PyObject* {
+    if (py::detail::all_type_info(type).empty()) {
+      PyErr_SetString(
+          PyExc_TypeError,
+          "cannot pickle or copy this object; keep the arrays or the scene it was made of");
+      return nullptr;
+    }
+    return make(type, words, named);
+  };
 }
+
+}
+  refuse_bases();

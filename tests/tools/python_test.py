@@ -370,7 +370,7 @@ class Made(unittest.TestCase):
 
     def code_of_simulation(self):
         return (f"body = sinew.Body([[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0], [0, 0, 0.01]], 0.005)\n"
-                f"simulation = sinew.Simulation(sinew.make_scene({BAR!r}, body), body)\n")
+                f"scene = sinew.make_scene({BAR!r}, body)\nsimulation = sinew.Simulation(scene, body)\n")
 
     def test_leaving_while_a_thread_steps(self):
         code = ("import sinew, threading, time\n" + self.code_of_simulation() +
@@ -382,7 +382,7 @@ class Made(unittest.TestCase):
 
     def test_objects_that_nobody_has_made(self):
         """Called in another process: what is tested is that it does not crash."""
-        code = """import sinew
+        code = "import sinew\n" + self.code_of_simulation() + """
 for kind in (sinew.Simulation, sinew.Body, sinew.Scene, *(getattr(sinew._sinew, name) for name in
              ("_Run", "_Frame", "_Dataset", "_Surface", "_Polygons", "_RunMeter", "_RunCells"))):
     thing = kind.__new__(kind)
@@ -396,7 +396,8 @@ for kind in (sinew.Simulation, sinew.Body, sinew.Scene, *(getattr(sinew._sinew, 
             except (TypeError, RuntimeError, IndexError, ValueError, sinew.Error):
                 pass
 for use in (lambda: sinew.Simulation(sinew.Scene.__new__(sinew.Scene)), lambda: sinew.fill(sinew.Scene.__new__(sinew.Scene)),
-            lambda: sinew.Simulation(sinew.make_scene({}), sinew.Body.__new__(sinew.Body))):
+            lambda: sinew.Simulation(sinew.make_scene({}), sinew.Body.__new__(sinew.Body)),
+            lambda: simulation.restore(sinew._sinew.State.__new__(sinew._sinew.State))):
     try:
         use()
     except (TypeError, RuntimeError, sinew.Error):
@@ -417,6 +418,26 @@ print("alive")
                                  self.body)
 
     def test_simulations_leak_nothing(self):
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)
+        self.assertEqual((done.returncode, done.stdout), (0, "alive\n"), done.stderr)
+
+    def test_nothing_is_pickled_or_copied(self):
+        """In another process, which such an attempt must not end."""
+        code = "import copy, copyreg, pickle, sinew\n" + self.code_of_simulation() + """
+things = (simulation, body, scene, simulation.save(), sinew.RestShape(body.points, 0.005),
+          simulation._dataset("particles"))
+for thing in things:
+    for use in (*(lambda thing, protocol=protocol: pickle.dumps(thing, protocol) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)),
+                *(lambda thing, protocol=protocol: thing.__reduce_ex__(protocol) for protocol in range(5)),
+                lambda thing: copyreg._reduce_ex(thing, 0), copy.copy, copy.deepcopy, lambda thing: type(thing).__base__()):
+        try:
+            use(thing)
+        except TypeError as error:
+            assert "cannot pickle" in str(error), error
+        else:
+            assert False, thing
+print("alive")
         def used():
             gc.collect()
             return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
