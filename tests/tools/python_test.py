@@ -112,6 +112,21 @@ class Scenes(SmallRun):
             self.assertIn(part, str(raised.exception))
             self.assertEqual(raised.exception.exit_code, 2)
 
+    def test_cures_are_arguments_of_python(self):
+        stopped = self.folder / "stopped"
+        sinew.simulate(sinew.read_scene(self.scene, {"solver.duration": 60, "solver.wall_time": 1}), stopped)
+        other = sinew.read_scene(self.scene, {"solver.duration": 60, "material.model": "bonded"})
+        sinew.new(SOURCE / "data/meshes/box.obj", scene=self.folder / "new.yaml")
+        for cause in (lambda: sinew.simulate(other, stopped), lambda: sinew.simulate(other, stopped, resume=True),
+                      lambda: sinew.new(SOURCE / "data/meshes/box.obj", scene=self.folder / "new.yaml")):
+            with self.assertRaisesRegex(sinew.Error, "force=True") as raised:
+                cause()
+            self.assertNotRegex(str(raised.exception), r"(^| )--?[a-z]")
+        for file in (stopped / "checkpoint").iterdir():
+            file.write_bytes(file.read_bytes()[:-1])
+        with self.assertRaisesRegex(sinew.Error, "remove the file to go on without it"):
+            sinew.simulate(sinew.read_scene(stopped / "scene.yaml"), stopped, resume=True)
+
 
 class Examples(SmallRun):
     def example(self, name, *words, before=()):
@@ -407,21 +422,6 @@ print("alive")
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)
         self.assertEqual((done.returncode, done.stdout), (0, "alive\n"), done.stderr)
 
-    def test_numbers_that_cannot_be_computed_with(self):
-        for bad in (1e155, -1e155, 1e308, float("inf"), float("nan")):
-            with self.assertRaisesRegex(sinew.Error, "too large or not finite"):
-                sinew.Body([[0, 0, 0], [bad, 0, 0]], 0.01)
-            with self.assertRaisesRegex(sinew.Error, "too large or not finite|not above 0"):
-                sinew.Body([[0, 0, 0]], abs(bad))
-            with self.assertRaises(sinew.Error):
-                sinew.make_scene({**BAR, "skeleton": {"bones": [{"name": "low", "head": [bad, 0, 0], "tail": [0, 0, 1]}]}},
-                                 self.body)
-
-    def test_simulations_leak_nothing(self):
-"""
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)
-        self.assertEqual((done.returncode, done.stdout), (0, "alive\n"), done.stderr)
-
     def test_nothing_is_pickled_or_copied(self):
         """In another process, which such an attempt must not end."""
         code = "import copy, copyreg, pickle, sinew\n" + self.code_of_simulation() + """
@@ -438,6 +438,21 @@ for thing in things:
         else:
             assert False, thing
 print("alive")
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)
+        self.assertEqual((done.returncode, done.stdout), (0, "alive\n"), done.stderr)
+
+    def test_numbers_that_cannot_be_computed_with(self):
+        for bad in (1e155, -1e155, 1e308, float("inf"), float("nan")):
+            with self.assertRaisesRegex(sinew.Error, "too large or not finite"):
+                sinew.Body([[0, 0, 0], [bad, 0, 0]], 0.01)
+            with self.assertRaisesRegex(sinew.Error, "too large or not finite|not above 0"):
+                sinew.Body([[0, 0, 0]], abs(bad))
+            with self.assertRaises(sinew.Error):
+                sinew.make_scene({**BAR, "skeleton": {"bones": [{"name": "low", "head": [bad, 0, 0], "tail": [0, 0, 1]}]}},
+                                 self.body)
+
+    def test_simulations_leak_nothing(self):
         def used():
             gc.collect()
             return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

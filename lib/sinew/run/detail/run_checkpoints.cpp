@@ -42,7 +42,7 @@ std::string trimmed(const std::string& line) {
 }
 
 Error another_run(const std::string& what) {
-  return bad_input("--resume continues the same run only: " + what,
+  return bad_input("a run goes on only as it began: " + what,
                    "give what the run began with, replace the run with --force, or choose another "
                    "folder with -o");
 }
