@@ -45,7 +45,10 @@ void declare(OptionList& list, Options& options) {
            "Arrows of a force: force_pair if none is named, force_bone, force, ...")
       .expected(0, 1);
   list.add("--time", options.view.time, "Time to show, s; by default when the array is largest");
-  list.add("--size", options.size, "Size of the picture, pixels").expected(2).type_name("W H");
+  list.add("--size", options.size, "Size of the picture, pixels")
+      .expected(2)
+      .type_name("W H")
+      .range(64, 8192);
   list.add("--picture", options.picture, "Write a picture to this file instead of opening a window")
       .type_name("FILE.png");
 }
@@ -164,6 +167,17 @@ void check(const Options& options, const RunFolder& folder) {
     throw bad_input("--cut " + cut + " is no axis", suggestion(cut, cuts));
 }
 
+/// Refuses a picture that cannot be written, before ParaView is started.
+void check_picture(const std::string& picture) {
+  if (picture.empty()) return;
+  if (fs::path(picture).extension() != ".png")
+    throw bad_input("--picture " + shown(picture) + " is no picture that ParaView writes here",
+                    "give it a name that ends with .png");
+  if (fs::is_directory(picture))
+    throw not_written(picture, "is a folder", "give the picture another name");
+  const NewFile can_be_written(picture);
+}
+
 /// A folder of its own below the system's for temporary files, for a run that cannot be written to.
 fs::path temporary_folder() {
   std::string folder = (fs::temp_directory_path() / "sinew-view-XXXXXX").string();
@@ -237,12 +251,14 @@ Exit follow(const Options& options) {
   return become(program, {program.string(), script.string()});
 }
 
-Exit draw(const Options& options) {
+Exit draw(const RunFolder& folder, const Options& options) {
   const fs::path program = program_named("pvbatch");
   if (!find_python(program))
     throw Error(Exit::not_written,
                 "ParaView draws pictures with its Python only; draw with: sinew render " +
                     shell_quoted(options.folder) + ", or install it with: " + how_to_get_python);
+  shown_run(folder.path,
+            options.view);  // refuses what cannot be shown, in fewer words than scripts
   ensure_display();
   unsetenv("SINEW_VIEW");
   std::vector<std::string> words = words_of(options);
@@ -253,10 +269,11 @@ Exit draw(const Options& options) {
 Exit view(const Options& options, const Common& common) {
   const RunFolder folder{options.folder};
   check(options, folder);
+  check_picture(options.picture);
   if (!options.picture.empty()) refuse_file_of_run(options.picture);
   setenv("SINEW_RUN", fs::absolute(folder.path).c_str(), 1);
   if (options.live) return follow(options);
-  return options.picture.empty() ? open_window(folder, options, common) : draw(options);
+  return options.picture.empty() ? open_window(folder, options, common) : draw(folder, options);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ class Live(unittest.TestCase):
         for script in ("live.py", "view.py"):
             done = subprocess.run(["pvbatch", self.run_folder / script], env=environment, capture_output=True,
                                   text=True, timeout=250)
-            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(done.returncode, 2, done.stderr)
             self.assertEqual(done.stderr.strip(), f"{script}: there is no screen; draw without one by: xvfb-run -a "
                                                   f"pvbatch {script} --picture FILE.png")
 
@@ -101,8 +101,17 @@ class Live(unittest.TestCase):
         picture = self.run_folder / "live.png"
         done = self.follow("--frames", "2", "--patience", "2", "--size", "400", "200", "--picture", str(picture))
         self.assertEqual(done.stderr.strip(), "live.py: no further frame within 2 s, 1 shown")
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertTrue(picture.exists())
+
+    def test_a_picture_that_is_not_written_ends_with_its_code(self):
+        self.start_run(3, 0).wait()
+        for words, code, what in ((["--picture", "nowhere/a.png"], 4, "nowhere/a.png: cannot be written (No such file"),
+                                  (["--array", "nonsense"], 2, "no array 'nonsense'; they have "),
+                                  (["--size", "0", "0"], 2, "give 64 to 8192 pixels")):
+            done = self.follow("--patience", "2", *words)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(what, done.stderr.splitlines()[-1])
 
     def test_a_run_that_ends_is_no_failure_of_the_frames_shown(self):
         self.start_run(3, 0).wait()

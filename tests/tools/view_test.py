@@ -141,6 +141,20 @@ class View(unittest.TestCase):
         self.assert_one_line(self.start(self.run_folder, DISPLAY=None, WAYLAND_DISPLAY=None), 4, "--picture FILE.png")
         self.assert_one_line(self.start(self.run_folder, PATH=str(self.folder)), 4, "apt-get install paraview")
 
+    def test_pictures_that_cannot_be_are_refused_before_paraview_starts(self):
+        (self.folder / "folder.png").mkdir()
+        for name, code, cure in (("nowhere/a.png", 4, "; "), ("folder.png", 4, "another name"), ("a.PNG", 2, "ends with .png"),
+                                 ("a.vtu", 2, "ends with .png"), ("a", 2, "ends with .png")):
+            for more in ([], ["--live"]):
+                done = self.start(self.run_folder, "--picture", self.folder / name, *more)
+                self.assert_one_line(done, code, name.split("/")[0], cure)
+        self.assertEqual([path.name for path in self.folder.glob("*.*")], ["folder.png"])
+        picture = ("--picture", self.folder / "a.png")
+        self.assert_one_line(self.start(self.run_folder, *picture, "--array", "velocty"), 2, "did you mean velocity?")
+        self.assert_one_line(self.start(self.run_folder, *picture, "--size", 0, 0), 2, "--size", "64", "8192")
+        (self.run_folder / "particles.pvd").write_text("<VTKFile")
+        self.assert_one_line(self.start(self.run_folder, *picture), 2, "particles.pvd", "; ")
+
     @unittest.skipIf(Path("/usr/lib/python3/dist-packages/paraview").exists(), "ParaView's Python is installed")
     def test_what_needs_paraviews_python_says_so_in_a_line(self):
         installed = "/usr/bin:/bin"  # Debian's ParaView, whose Python is another package

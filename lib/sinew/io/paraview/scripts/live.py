@@ -183,12 +183,6 @@ def follow_in_batch(follower, sources, options):
     return None
 
 
-def end_batch(what):
-    """Ends the program without its views, whose window the display may have lost by then."""
-    print(f"{SCRIPT}: {what}", file=sys.stderr, flush=True)
-    os._exit(1)
-
-
 def main():
     options = arguments(
         "Follows a run in progress.",
@@ -208,9 +202,9 @@ def main():
     layout.SetSize(*options.size)
     wrong = follow_in_batch(follower, sources, options)
     if options.picture:
-        SaveScreenshot(options.picture, layout, ImageResolution=options.size, SeparatorWidth=0)
+        save_picture(options, layout)
     if wrong:
-        end_batch(wrong)
+        end_batch(wrong, 2)
 
 
 def moved(thing, module):

@@ -29,6 +29,24 @@ def arguments(description, *more):
     if sys.argv and sys.argv[0].endswith(".py"):
         words += sys.argv[1:]
     options = parser.parse_args(words)
+    if not all(64 <= pixels <= 8192 for pixels in options.size):
+        stop("a picture cannot have that size; give 64 to 8192 pixels each way")
     if not any(options.camera):
         stop("a camera needs a direction; give one that is not 0 0 0")
     return options
+
+
+def end_batch(what, code):
+    """Ends the program without its views, whose window the display may have lost by then."""
+    print(f"{SCRIPT}: {what}", file=sys.stderr, flush=True)
+    os._exit(code)
+
+
+def save_picture(options, layout):
+    """Through a file beside it: ParaView does not tell whether it has written one."""
+    part = options.picture + ".part.png"
+    SaveScreenshot(part, layout, ImageResolution=options.size, SeparatorWidth=0)
+    try:
+        os.replace(part, options.picture)
+    except OSError as error:
+        end_batch(f"{options.picture}: cannot be written ({error.strerror}); choose another place, or free some space", 4)

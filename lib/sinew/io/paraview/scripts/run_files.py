@@ -13,8 +13,9 @@ from camera import *
 LEFT_IN = ""
 
 
-def stop(what):
-    sys.exit(f"{SCRIPT}: {what}")
+def stop(what, code=2):
+    print(f"{SCRIPT}: {what}", file=sys.stderr)
+    sys.exit(code)
 
 
 def program():

@@ -132,7 +132,7 @@ def main():
     animation.AnimationTime = min((time for time, _ in frames), key=lambda t: abs(t - moment))
     if options.picture:
         layout.SetSize(*options.size)
-        SaveScreenshot(options.picture, layout, ImageResolution=options.size, SeparatorWidth=0)
+        save_picture(options, layout)
     else:
         RenderAllViews()
 
