@@ -221,7 +221,8 @@ void try_out(const Surface& surface, NewChoices& choices) {
     Prepared prepared = tried(surface, choices);
     if (!choices.settings.skeleton.file.empty() && !choices.settings.tracks.empty()) {
       bend_joints(prepared.body, choices);
-      prepared = tried(surface, choices);
+      BodyFile filled = std::move(prepared.filled);
+      prepared = tried(surface, choices, std::move(filled));
     }
     use_budget(prepared, choices);
   } catch (const Error&) {  // check names what is wrong

@@ -125,7 +125,7 @@ void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewCh
                  " m thick";
 }
 
-Prepared tried(const Surface& surface, const NewChoices& choices) {
+Prepared tried(const Surface& surface, const NewChoices& choices, std::optional<BodyFile> filled) {
   Settings settings = choices.settings;
   PolygonSoup soup{surface.triangles.points, {}};
   for (const auto& face : surface.triangles.faces)
@@ -134,7 +134,12 @@ Prepared tried(const Surface& surface, const NewChoices& choices) {
   settings.body.unit = LengthUnit::m, settings.body.up = Axis::z, settings.body.forward.reset();
   settings.meshes["body"] = std::move(soup);
   settings.motion.begin = choices.begins_posed ? Begin::pose : Begin::rest;
-  return prepare({std::move(settings)});
+  if (!filled) {
+    Settings quick = choices.settings;  // without shares of volume, 24 finer fillings
+    quick.material.model = MaterialModel::paper;
+    filled = body_file(fill_body(quick, surface));
+  }
+  return prepare({std::move(settings), std::move(filled)});
 }
 
 namespace {

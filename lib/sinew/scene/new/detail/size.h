@@ -6,6 +6,7 @@
 //     use_budget(tried(surface, choices), choices);
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <sinew/rig/limbs.h>
@@ -21,8 +22,10 @@ double three_figures(double value);
 void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices);
 
 /// The scene so far, prepared with this surface in place of its mesh, and from rest: what that
-/// costs is known without the first pose. Throws bad input.
-Prepared tried(const Surface& surface, const NewChoices& choices);
+/// costs is known without the first pose; with particles at rest that were filled before, if any.
+/// Throws bad input.
+Prepared tried(const Surface& surface, const NewChoices& choices,
+               std::optional<BodyFile> filled = {});
 
 /// Chooses the smallest radius, none larger than the present one, with under 5e8 particle-steps and
 /// 100,000 particles; where limbs are under four particles thick, but for those that hold a
