@@ -97,6 +97,34 @@ TEST(Newton, SaysWhereABodyBuckles) {
   }
 }
 
+/// Euler's load of a column that is clamped at its foot is pi^2 E I / (4 L^2), and a small force to
+/// the side moves its end by L^3 / (3 E I) for each newton.
+TEST(Newton, TellsTheLoadUnderWhichAColumnBuckles) {
+  Machine machine(bonded, 41);
+  machine.world.supports = {{"clamp", machine.bottom()}};
+  const std::vector<std::uint32_t> top = machine.top();
+  constexpr double to_the_side = 1e-5;
+  machine.world.loads = {machine.pull(top, {to_the_side, 0, 0})};
+  const Simulation bent = machine.at_rest(by(StaticSolver::newton, 1));
+  const double moved =
+                   positions_by_id(bent.particles())[top[0]].x() - machine.rest[top[0]].x(),
+               critical = pi * pi / 12 * to_the_side / moved * machine.rest.back().z();
+  const double pressed = 1.5 * critical;
+  machine.world.loads = {machine.pull(top, {0, 0, -pressed})};
+  machine.world.loads[0].scale = {{0, 1}, {0, 1}};
+  LoadSteps steps = by(StaticSolver::newton, 11);
+  steps.interval = 0.1;
+  const Simulation column = machine.at_rest(steps);
+  ASSERT_TRUE(column.relaxation()->buckled());
+  const auto [before, after] = *column.relaxation()->buckled();
+  EXPECT_NEAR(pressed * (before + after) / 2, critical, 0.05 * critical);
+  EXPECT_LT(after - before, 0.1 / 15);
+  const Points end = positions_by_id(column.particles());
+  EXPECT_LT(std::hypot(end[top[0]].x() - machine.rest[top[0]].x(),
+                       end[top[0]].y() - machine.rest[top[0]].y()),
+            0.01 * r);
+}
+
 TEST(Newton, GoesOnWithTheSameBitsWhereverItIsResumed) {
   const Machine machine = gripped(13, {0, 0, -0.01}, {1, 0, 0});
   const Simulation whole = machine.at_rest(by(StaticSolver::newton));

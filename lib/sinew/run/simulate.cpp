@@ -340,12 +340,31 @@ class Run {
     if (!what.empty()) say(options_, what);
   }
 
+  /// " of load 'tip' 0.84 to 0.86 N", of each whose force grows between the moments.
+  std::string loads_between(const std::array<double, 2>& times) const {
+    std::string text;
+    if (!simulation_->body().world) return text;
+    for (const Load& load : simulation_->body().world->loads) {
+      const double force = load.force.norm(), from = force * load.scale.at(times[0]),
+                   to = force * load.scale.at(times[1]);
+      if (from != to)
+        text += ", at " + three_digits(from) + " to " + three_digits(to) + " N of load " +
+                shown(load.name);
+    }
+    return text;
+  }
+
   void warn_of_buckling() const {
-    if (buckles_at_)
-      warn("before " + three_digits(*buckles_at_) +
-           " s the body comes to an equilibrium that is unstable, by negative pivots of its "
-           "tangent: it buckles, to a side that a small imperfection decides; put a small load to "
-           "the side that is meant");
+    if (!buckles_at_) return;
+    const auto& between = simulation_->relaxation()->buckled();
+    const std::string when = between ? "between " + three_digits((*between)[0]) + " and " +
+                                           three_digits((*between)[1]) + " s" +
+                                           loads_between(*between) + ", "
+                                     : "before " + three_digits(*buckles_at_) + " s ";
+    warn(when +
+         "the body comes to an equilibrium that is unstable, by negative pivots of its tangent: it "
+         "would buckle, to a side that a small imperfection decides; put a small load to the side "
+         "that is meant, or move supports by keys in place of a load to go past it");
   }
 
   void report(int frame) const {

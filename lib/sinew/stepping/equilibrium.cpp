@@ -205,6 +205,10 @@ bool Relaxation::judge(const StepSums& sums) {
 void Relaxation::accept(const IncrementStrain& found) {
   const bool is_there = is_last_increment();
   now_.largest = reference();
+  if (now_.negative > 0) {
+    if (now_.unstable == 0 && !buckled_) buckled_ = {begin_time(), time_at(end())};
+    ++now_.unstable;
+  }
   now_.spent += now_.iterations;
   ++now_.increments;
   if (is_there) {
@@ -222,6 +226,10 @@ void Relaxation::accept(const IncrementStrain& found) {
 
 bool Relaxation::may_shorten() const {
   return now_.at_rest > 0 && end() - now_.reached >= 1.5 * shortest_increment;
+}
+
+bool Relaxation::has_become_unstable() const {
+  return now_.negative > 0 && now_.unstable == 0 && may_shorten();
 }
 
 bool Relaxation::is_too_large(const IncrementStrain& found, std::size_t before) const {
@@ -268,14 +276,17 @@ std::string Relaxation::moment_text() const {
 
 void Relaxation::give_up() const {
   const bool near_noise = now_.unbalanced < near_rounding * noise_;
-  throw Error(Exit::unstable,
-              moment_text() + " is not in equilibrium: the residual is " +
-                  three_digits(residual()) + " after " +
-                  std::to_string(now_.spent + now_.iterations) + " iterations, not " +
-                  three_digits(steps_.residual) +
-                  (near_noise ? std::string("; rounding may leave no less: ") + against_rounding
-                              : "; make solver.iterations larger and resume, or make "
-                                "output.interval shorter"));
+  const std::string cure =
+      near_noise          ? std::string("rounding may leave no less: ") + against_rounding
+      : now_.unstable > 0 ? "the way there is unstable: past a limit point, move supports by keys "
+                            "in place of the load"
+                          : "make solver.iterations larger and resume, or make output.interval "
+                            "shorter";
+  throw Error(Exit::unstable, moment_text() + " is not in equilibrium: the residual is " +
+                                  three_digits(residual()) + " after " +
+                                  std::to_string(now_.spent + now_.iterations) +
+                                  " iterations, not " + three_digits(steps_.residual) + "; " +
+                                  cure);
 }
 
 void Relaxation::restore(const RelaxationState& state) {

@@ -12,8 +12,10 @@
 //     }
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -130,6 +132,9 @@ class Relaxation {
   int moments() const { return static_cast<int>(now_.at_rest); }
   /// At the last of them.
   const Equilibrium& last() const { return last_; }
+  /// The first increment since this began or was restored at whose end Newton's method saw an
+  /// unstable equilibrium and at whose beginning a stable one, s.
+  const std::optional<std::array<double, 2>>& buckled() const { return buckled_; }
   /// Forces that nothing answered in the last iteration over the largest applied; 0 where nothing
   /// but rounding acts.
   double residual() const;
@@ -146,6 +151,9 @@ class Relaxation {
   /// Whether an increment that strained the body so is to be given up for a shorter one; `before`:
   /// particles that were inverted where it began.
   bool is_too_large(const IncrementStrain& found, std::size_t before) const;
+  /// Whether the present equilibrium is unstable, the one before was not, and a shorter increment
+  /// may tell better where that begins.
+  bool has_become_unstable() const;
   /// Where the increment began, to be tried by a shorter one, given what the longer one `found`.
   RelaxationState shorter(RelaxationState begun, double strain) const;
   /// The same after an increment that led to no stable equilibrium: half of it, or the whole by
@@ -182,6 +190,7 @@ class Relaxation {
   double step_, noise_, negligible_, radius_;
   RelaxationState now_;
   Equilibrium last_;
+  std::optional<std::array<double, 2>> buckled_;
 };
 
 /// The iterations of a stepper of the body, with steps of that size (s). Throws bad input for a

@@ -104,7 +104,7 @@ void LoadIncrements::try_otherwise(Stepper& stepper) {
 
 // Newton's method.
 
-/// Where the load leads by the tangent at its beginning, unless that is too far for an increment.
+/// Where the load leads by the tangent at its beginning, as far as an increment may go.
 bool LoadIncrements::predict(Stepper& stepper) {
   const double from = relaxation_.begin_time(), to = relaxation_.time();
   const auto found = newton_->predict(stepper, moment_at_(from),
@@ -116,8 +116,25 @@ bool LoadIncrements::predict(Stepper& stepper) {
     go_back(stepper, relaxation_.shorter(begun_->relaxation, strained.strain));
     return true;
   }
+  if (const double part = max_strain_of_increment / strained.strain; part < 1) {
+    Points nearer = newton_->positions();
+    for (std::size_t k = 0; k < nearer.size(); ++k)
+      nearer[k] += part * (found->positions[k] - nearer[k]);
+    stepper.place(nearer, Stepper::Move::far);
+  }
   relaxation_.count_solution(found->negative);
   return true;
+}
+
+/// Newton's method has come to rest: by shorter increments where the body has become unstable,
+/// until these tell where; then it stays on its way, if that is short.
+void LoadIncrements::settle(Stepper& stepper) {
+  const bool is_unstable = relaxation_.state().negative > 0;
+  const double strain = is_unstable ? strain_.since(positions(stepper)).strain : 0;
+  if (relaxation_.has_become_unstable() || strain > max_strain_of_increment)
+    try_otherwise(stepper);
+  else if (!is_given_up(stepper, 1))
+    accept(stepper);
 }
 
 Relaxation::Outcome LoadIncrements::solve(Stepper& stepper) {
@@ -128,10 +145,7 @@ Relaxation::Outcome LoadIncrements::solve(Stepper& stepper) {
   }
   if (relaxation_.take(stepper.try_step(moment(), 1))) {
     stepper.halt();
-    if (state.negative > 0)
-      try_otherwise(stepper);
-    else if (!is_given_up(stepper, 1))
-      accept(stepper);
+    settle(stepper);
     return at_rest;
   }
   const auto found =

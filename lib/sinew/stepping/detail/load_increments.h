@@ -48,6 +48,7 @@ class LoadIncrements {
   Relaxation::Outcome relax(Stepper& stepper, std::vector<Offender>& offenders);
   Relaxation::Outcome solve(Stepper& stepper);
   bool predict(Stepper& stepper);
+  void settle(Stepper& stepper);
 
   Relaxation relaxation_;
   SharedNeighbors near_;

@@ -70,6 +70,27 @@ std::vector<Layer> layers_of(const NeighborLists& near, const Points& rest) {
   return all;
 }
 
+/// How many bonds the farthest particle is from what holds the body; infinite where nothing does.
+double reach_of(const NeighborLists& near, const Body& body) {
+  std::vector<std::uint32_t> layer;
+  std::vector<bool> met(near.size(), false);
+  const auto add = [&](std::uint32_t i, std::vector<std::uint32_t>& to) {
+    if (!met[i]) met[i] = true, to.push_back(i);
+  };
+  if (body.world)
+    for (const Pinned& pin : body.world->pins) add(pin.particle, layer);
+  if (layer.empty()) return infinity;
+  double reach = -1;
+  while (!layer.empty()) {
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t i : layer)
+      for (const std::uint32_t j : near.of(i)) add(j, next);
+    layer = std::move(next);
+    ++reach;
+  }
+  return reach;
+}
+
 /// Along the middles of the layers, m; of the longest piece.
 double length_of(const std::vector<Layer>& layers) {
   double longest = 0, length = 0;
@@ -109,14 +130,17 @@ std::string why_not_newton(const Body& body, const Stepping& stepping) {
 
 StaticCost relaxation_cost(const Body& body, double residual) {
   // Measured: bars of 5 to 11 layers across and 5 to 30 times as long, under a force at an end. The
-  // slowest mode of a bar of l pairs of layers, each of p particles, has a period of l^2 / sqrt(p).
+  // slowest mode of a bar of l pairs of layers, each of p particles, has a period of l^2 / sqrt(p);
+  // held at both ends it moves like two of half the length.
   constexpr double slowness = 8, particles_per_second = 20e6;
   const auto count = static_cast<double>(body.rest.size());
   const double pair_of_layers = 2 * half_plane_spacing(body.material.pair.r);
-  const double length =
-      1 + length_of(layers_of(neighbors_of(body)->all(), body.rest)) / pair_of_layers;
+  const SharedNeighbors neighbors = neighbors_of(body);
+  const NeighborLists& near = neighbors->all();
+  const double length = 1 + length_of(layers_of(near, body.rest)) / pair_of_layers;
+  const double reach = std::min(length, 1 + reach_of(near, body));
   StaticCost cost;
-  cost.iterations = slowness * length * length / std::sqrt(count / length) * -std::log(residual);
+  cost.iterations = slowness * reach * reach / std::sqrt(count / length) * -std::log(residual);
   cost.relaxation = cost.iterations * count / particles_per_second;
   return cost;
 }
@@ -155,25 +179,35 @@ std::optional<Newton::Solution> Newton::predict(Stepper& stepper, const TimedPos
   const Tangent::Matrix matrix = tangent_.at(stepper, begin, read(stepper, begin));
   const Tangent::Vector before = tangent_.forces(stepper, begin, gravity_),
                         after = tangent_.forces(stepper, soon, gravity_);
-  auto solution = solve(matrix, before + (after - before) / part, infinity);
+  auto solution = solve(matrix, before + (after - before) / part, {infinity, false});
   stepper.place(positions_, Stepper::Move::slight);
   return solution;
 }
 
 std::optional<Newton::Solution> Newton::correct(Stepper& stepper, const TimedPose& now) {
   const Tangent::Matrix matrix = tangent_.at(stepper, now, read(stepper, now));
-  return solve(matrix, tangent_.forces(stepper, now, gravity_), max_correction);
+  return solve(matrix, tangent_.forces(stepper, now, gravity_), {max_correction, true});
+}
+
+/// By the sizes of the pivots: where the tangent is indefinite, a step down the energy all the
+/// same.
+Tangent::Vector Newton::step_down(const Tangent::Vector& forces) const {
+  Tangent::Vector by = factor_.permutationP() * forces;
+  factor_.matrixL().solveInPlace(by);
+  by = by.cwiseQuotient(factor_.vectorD().cwiseAbs());
+  factor_.matrixU().solveInPlace(by);
+  return factor_.permutationPinv() * by;
 }
 
 std::optional<Newton::Solution> Newton::solve(const Tangent::Matrix& matrix,
-                                              const Tangent::Vector& forces, double max_gradient) {
+                                              const Tangent::Vector& forces, Step step) {
   factor_.factorize(matrix);
   if (factor_.info() != Eigen::Success) return std::nullopt;
-  Tangent::Vector by = factor_.solve(forces);
+  const std::int64_t negative = (factor_.vectorD().array() < 0).count();
+  Tangent::Vector by = step.downhill && negative > 0 ? step_down(forces) : factor_.solve(forces);
   if (!by.allFinite()) return std::nullopt;
   const double gradient = tangent_.largest_gradient(positions_, by);
-  if (gradient > max_gradient) by *= max_gradient / gradient;
-  const std::int64_t negative = (factor_.vectorD().array() < 0).count();
+  if (gradient > step.max_gradient) by *= step.max_gradient / gradient;
   return Solution{tangent_.moved(positions_, by), negative};
 }
 

@@ -40,6 +40,8 @@ class Newton {
                                   double part);
   /// Where it comes to by the forces that nothing answers at the moment.
   std::optional<Solution> correct(Stepper& stepper, const TimedPose& now);
+  /// Where the particles were before either, in the order of the stepper.
+  const Points& positions() const { return positions_; }
 
  private:
   struct Factor : Eigen::SimplicialLDLT<Tangent::Matrix> {
@@ -48,8 +50,15 @@ class Newton {
   };
 
   const Points& read(Stepper& stepper, const TimedPose& now);
+  /// How far a step may turn or strain any pair, and whether energy must fall along it: so that
+  /// corrections end in stable equilibria alone, but where they begin in others.
+  struct Step {
+    double max_gradient;
+    bool downhill;
+  };
+  Tangent::Vector step_down(const Tangent::Vector& forces) const;
   std::optional<Solution> solve(const Tangent::Matrix& matrix, const Tangent::Vector& forces,
-                                double max_gradient);
+                                Step step);
 
   Tangent tangent_;
   Factor factor_;
