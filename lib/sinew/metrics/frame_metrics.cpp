@@ -52,9 +52,9 @@ void add_pose(FrameMetrics& out, const RestBody& rest, const FrameState& state) 
   out.bone_shift = change.shift;
 }
 
-void add_volume(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+void add_volume(FrameMetrics& out, const RestBody& rest, const Triangles& surface) {
   if (!(rest.volume > 0)) return;
-  out.volume = volume(Triangles{state.surface_points, rest.surface.faces});
+  out.volume = volume(surface);
   out.volume_ratio = out.volume / rest.volume;
   out.volume_error = std::abs(out.volume_ratio - 1);
 }
@@ -99,10 +99,11 @@ void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& sta
   out.angular_momentum_z = angular.z();
 }
 
-void add_surface(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+void add_surface(FrameMetrics& out, const RestBody& rest, const FrameState& state,
+                 const Triangles& surface) {
   const SurfaceDistortion skin = surface_distortion(rest.surface, state.surface_points);
-  out.area = skin.area;
-  out.area_ratio = skin.area / rest.area;
+  out.area = rest.fine ? area(surface) : skin.area;
+  out.area_ratio = out.area / rest.area;
   out.edge_stretch_max = skin.edge_stretch;
   out.area_stretch_max = skin.area_stretch;
   out.conformal_max = skin.conformal;
@@ -204,10 +205,10 @@ void add_groups(FrameMetrics& out, const FrameState& state) {
   out.grouped = statistics(state.group.size(), in_one).mean();
 }
 
-void add_sections(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
+void add_sections(FrameMetrics& out, const RestBody& rest, const Triangles& surface) {
   Statistics ratios;
   for (const Section& section : rest.sections)
-    ratios.add(area_of(section, state.surface_points) / section.area);
+    ratios.add(area_of(section, surface.points) / section.area);
   out.candy_wrapper = 1 - ratios.min();
   out.bulge = ratios.max() - 1;
 }
@@ -257,7 +258,8 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   FrameMetrics& out = frame.metrics;
   out.time = state.time;
   add_pose(out, rest, state);
-  add_volume(out, rest, state);
+  const Triangles surface = measured_surface(rest, state);
+  add_volume(out, rest, surface);
   add_motion(out, frame.particles);
   add_energies(out, rest.start, state.energies);
   out.unbalanced_force = state.unbalanced.force;
@@ -270,8 +272,8 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_gradients(out, frame.particles, rest.radius);
   add_strain(out, frame.particles);
   add_largest_stress(out, rest, state, frame.particles.von_mises);
-  add_surface(out, rest, state);
-  add_sections(out, rest, state);
+  add_surface(out, rest, state, surface);
+  add_sections(out, rest, surface);
   add_momentum(out, rest, state);
   out.tip_angle = degrees(tip_turn(rest.slices, rest.shape.points, state.positions));
   out.twist_jump_max = degrees(largest_twist_jump(rest.slices, rest.shape.points, state.positions));

@@ -212,6 +212,11 @@ std::vector<std::int32_t> surface_layers(const RestShape& shape, double radius) 
   return layer;
 }
 
+Triangles measured_surface(const RestBody& rest, const FrameState& state) {
+  if (rest.fine) return {rest.fine->at(state.positions), rest.fine->rest.faces};
+  return {state.surface_points, rest.surface.faces};
+}
+
 RestBody rest_body(RestInput input) {
   check(input);
   RestBody body;
@@ -220,7 +225,7 @@ RestBody rest_body(RestInput input) {
   require(body.area > 0, "the surface at rest has no area");
   const std::vector<JointZone> zones = joint_zones(input);
   body.bound = bound_particles(input, zones);
-  body.sections = make_sections(input.surface, input.bones,
+  body.sections = make_sections(input.fine ? input.fine->rest : input.surface, input.bones,
                                 [&](const Vec3& place) { return near_joint(zones, place); });
   body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
   const bool with_second = static_cast<bool>(input.law.second);
@@ -233,6 +238,7 @@ RestBody rest_body(RestInput input) {
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
   body.surface = std::move(input.surface);
+  body.fine = std::move(input.fine);
   body.bones = std::move(input.bones);
   body.radius = input.radius;
   body.interaction_range = input.interaction_range;

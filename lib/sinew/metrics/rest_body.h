@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,13 +60,20 @@ struct ForcesOfPairs {
   std::function<bool(std::uint32_t, std::uint32_t)> pass = {};
 };
 
+/// A skin that bends finer than a coarse mesh. Volume, area and sections are its.
+struct FineSkin {
+  Triangles rest;                           ///< encloses what the surface encloses
+  std::function<Points(const Points&)> at;  ///< its points by those of the particles, m
+};
+
 /// Input: the body at rest and its constants. Particles are in the written order.
 struct RestInput {
   Points positions;  ///< of the n particles at rest, m
   SharedNeighbors neighbors =
-      {};                 ///< of these, with second ones where law.second is; none: searched
-  Triangles surface;      ///< the body's skin at rest, outside out
-  std::vector<int> bone;  ///< n; the bone each particle follows (most), -1 for none
+      {};             ///< of these, with second ones where law.second is; none: searched
+  Triangles surface;  ///< the body's skin at rest, outside out
+  std::optional<FineSkin> fine = {};  ///< none: the surface is fine enough
+  std::vector<int> bone;              ///< n; the bone each particle follows (most), -1 for none
   std::vector<MeasuredBone> bones;
   double radius = 0;             ///< of a particle, r, m
   double interaction_range = 0;  ///< b, m: pairs farther apart do not interact
@@ -108,6 +116,7 @@ struct RestBody {
   RestShape shape;       ///< neighbors: pairs closer than 2.2 r
   NeighborLists second;  ///< neighbors of law.second; empty: there are none
   Triangles surface;
+  std::optional<FineSkin> fine;
   double volume = 0;  ///< enclosed by the surface, m^3; not above 0 for a sheet
   double area = 0;    ///< of the surface, m^2
   std::vector<MeasuredBone> bones;
@@ -147,6 +156,10 @@ std::vector<double> first_bond_rest(const RestBody& rest);
 /// a width of the body, sqrt(A_B) / 2, along the bones from each joint; A_B is the volume bound to
 /// a bone over its length, the larger of the two that meet counts.
 RestBody rest_body(RestInput input);
+
+/// The surface that volumes, areas and sections are measured on, at a frame: the fine skin, or the
+/// body's own points.
+Triangles measured_surface(const RestBody& rest, const FrameState& state);
 
 /// Whether every coordinate is finite.
 bool all_finite(const Points& points);

@@ -183,7 +183,7 @@ void measure_one(Measured& measured, Course& course, const RestBody& rest, const
   measured.frames.push_back(frame.metrics);
   measured.bones.insert(measured.bones.end(), bones.begin(), bones.end());
   for (const SectionMetrics& row :
-       measure_sections(rest.sections, state.surface_points, state.time))
+       measure_sections(rest.sections, measured_surface(rest, state).points, state.time))
     measured.sections.push_back(row);
   if (measured.playback.wants(i)) add_frame(measured.playback, i, rest, state, frame.particles);
   course.worst_particles.push_back(std::move(frame.worst_particles));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,7 +15,9 @@
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/material/laws.h>
+#include <sinew/mesh/refine.h>
 #include <sinew/rig/front.h>
+#include <sinew/rig/skin.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/prepare.h>
@@ -427,6 +430,27 @@ std::vector<std::int32_t> layers_of_part(const RunFiles& run) {
   return layer;
 }
 
+/// The surface in triangles that bend as the particles do; none where its own are so small, or not
+/// all particles are in the frames.
+std::optional<FineSkin> fine_skin(const RunFiles& run) {
+  const double r = run.material.pair.r;
+  if (!run.ids.empty() || longest_side(run.surface) <= longest_measured_side * r) return {};
+  FineSkin fine{refined(run.surface, longest_measured_side * r), {}};
+  const auto made = [&run, r, points = fine.rest.points] {  // where it is asked for
+    Binding binding{{0}, {}, {}};
+    for (const std::int32_t bone : *run.body.bone) {
+      if (bone != no_bone) binding.influences.push_back({bone, 1});
+      binding.first.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    return make_skin(points, positions_of(run.body.particles), r, run.skeleton, binding);
+  };
+  fine.at = [skin = std::async(std::launch::deferred, made).share()](const Points& now) {
+    const auto mine = skin;  // several threads may ask
+    return follow(mine.get(), now);
+  };
+  return fine;
+}
+
 }  // namespace
 
 RestInput measured_body(const RunFiles& run) {
@@ -448,6 +472,7 @@ RestInput measured_body(const RunFiles& run) {
   if (!run.ids.empty()) input.layer = layers_of_part(run);
   if (!run.ids.empty()) input.law = {};  // of what is not there, forces act as well
   input.surface = run.surface;
+  input.fine = fine_skin(run);
   input.bone.assign(run.body.bone->begin(), run.body.bone->end());
   if (run.body.weight) input.weight = *run.body.weight;
   if (run.ids.empty() && run.settings.contact.pass_through.any())

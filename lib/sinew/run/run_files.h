@@ -119,6 +119,9 @@ ForcesOfPairs pair_law(const Material& material);
 LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors,
                             std::vector<double> modulus);
 
+/// Faces with longer sides, in radii, are divided where volumes, areas and sections are measured.
+inline constexpr double longest_measured_side = 4;
+
 /// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds
 /// positions, surface and the bones of particles.
 RestInput measured_body(const Material& material, const Skeleton& skeleton);

@@ -2,12 +2,14 @@
 #include <sinew/scene/check/warnings.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
 #include <sinew/analysis/rest_stability.h>
 #include <sinew/body/grouping.h>
 #include <sinew/body/solid.h>
+#include <sinew/core/particles.h>
 #include <sinew/core/text.h>
 #include <sinew/rig/motion_checks.h>
 #include <sinew/scene/check/costly_choices.h>
@@ -44,6 +46,7 @@ constexpr double fastest_bone =
 constexpr double largest_miss = 0.1;        // of a modulus
 constexpr double largest_overstress = 0.1;  // of the yield stress
 constexpr double deepest_start = 0.1;       // radii inside an obstacle: more is visible as a kick
+constexpr double largest_face = 4;          // particles along a side
 constexpr double min_shift = 0.1;           // radii: a smaller jump of a bone is invisible
 // In square roots of a bone's cross-section: 0.6 is the rim of a round limb.
 constexpr double far_from_bone = 3;
@@ -245,8 +248,28 @@ void warn_of_coarse_surface(const Prepared& prepared, Warnings& warnings) {
   if (count > 0)
     warnings.push_back(std::to_string(count) +
                        " faces of the mesh reach from bone to bone with edges longer than both: "
-                       "the surface, its volume too, cannot bend there as the particles do; "
-                       "subdivide the mesh");
+                       "the surface cannot bend there as the particles do; subdivide the mesh");
+}
+
+/// The same where a machine bends it between its points.
+void warn_of_large_faces(const Prepared& prepared, Warnings& warnings) {
+  const World* world = prepared.body.world.get();
+  if (world == nullptr || (world->supports.empty() && world->loads.empty())) return;
+  const Triangles& surface = prepared.surface.triangles;
+  const double longest = largest_face * nearest_distance(prepared.body.material.pair.r);
+  const auto side = [&](const std::array<int, 3>& face, int k) {
+    return (surface.points[face[k]] - surface.points[face[(k + 1) % 3]]).norm();
+  };
+  const auto count =
+      std::count_if(surface.faces.begin(), surface.faces.end(), [&](const auto& face) {
+        return std::max({side(face, 0), side(face, 1), side(face, 2)}) > longest;
+      });
+  if (count > 0)
+    warnings.push_back(std::to_string(count) +
+                       " faces of the mesh are longer than four particles: where supports and "
+                       "loads bend the body, the written surface stays flat between its points "
+                       "(volumes, areas and sections are measured on a finer one); subdivide the "
+                       "mesh");
 }
 
 /// A body that begins inside an obstacle is pushed out of it violently.
@@ -376,6 +399,7 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
   warn_of_unreached(prepared.body.binding, warnings);
   warn_of_overlaps(prepared, warnings);
   warn_of_coarse_surface(prepared, warnings);
+  warn_of_large_faces(prepared, warnings);
   warn_of_contacts(prepared, warnings);
   for (const std::string& note :
        thin_part_notes(prepared.settings.binding, prepared.body, prepared.steps.step))
