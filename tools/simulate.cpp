@@ -5,6 +5,7 @@
 
 #include <sinew/core/json.h>
 #include <sinew/core/text.h>
+#include <sinew/run/run_record.h>
 #include <sinew/run/simulate.h>
 #include <sinew/scene/body.h>
 #include <sinew/settings/read_scene.h>
@@ -31,6 +32,8 @@ void print_results(const RunFolder& folder, const std::string& text, const Commo
                           "time_step_factor", "precision", "neighbor_search", "instruction_set",
                           "particle_steps_per_second", "state_hash"})
     if (record.contains(key)) results.add(key, record[key]);
+  if (record.contains("moduli_at_probes"))
+    results.add_value("moduli_at_probes", record["moduli_at_probes"]);
   results.add_headline("status", record["status"]);
   results.add_headline("particles", std::to_string(record["particles"].get<std::int64_t>()));
   const std::string steps = std::to_string(record["steps"].get<std::int64_t>());
@@ -40,6 +43,8 @@ void print_results(const RunFolder& folder, const std::string& text, const Commo
           (record.contains("load_steps")
                ? steps + " iterations)"
                : steps + " steps of " + three_digits(record["time_step"].get<double>()) + " s)"));
+  for (const auto& entry : record.value("moduli_at_probes", nlohmann::ordered_json::array()))
+    results.add_headline("young_modulus at " + entry.value("probe", ""), modulus_text(entry));
   results.add_headline("folder", folder.path.string());
   results.print(common);
 }

@@ -100,6 +100,43 @@ class Materials(unittest.TestCase):
         self.assertTrue(all(mesh.points[material == 2][:, 2] > 0.67))
         sinew("measure", self.out)
 
+    def test_the_softness_of_the_papers_bar_is_told_before_and_after_it_is_pulled(self):
+        """Along [100] twelve bonds pull with 0.9428 / 1.3505 of their mean, less 1.4 / 11 for 11 layers."""
+        layer = R * 2 ** 0.5
+        length = 25 * layer
+        write_box(self.folder / "bar.obj", 11 * layer, length)
+        path = self.folder / "bar.yaml"
+        path.write_text(f"""
+body: {{mesh: bar.obj, radius: {R}}}
+material: {{model: paper, young_modulus: {E}}}
+supports:
+  - {{name: below, hold: z, facing: [0, 0, -1]}}
+  - {{name: axis, hold: xy, center: [0, 0, {length / 2}], radius: 0.009}}
+  - {{name: edge, hold: y, center: [0.07, 0, {length / 2}], radius: 0.02}}
+  - {{name: above, hold: z, facing: [0, 0, 1], keys: [{{time: 0}}, {{time: 1, translation: [0, 0, {0.005 * length}]}}]}}
+probes: [{{name: middle, low: [-1, -1, {0.4 * length}], high: [1, 1, {0.6 * length}]}}]
+solver: {{method: static, duration: 1}}
+output: {{interval: 1}}
+""")
+        before = sinew("check", path, "--json")
+        checked = json.loads(before.stdout)
+        self.assertRegex(before.stderr, "is pulled between 'below' and 'above' .* Pa, 39 % softer")
+        (span,) = checked["along_spans"]
+        self.assertFalse(span["bends"])
+        self.assertAlmostEqual(span["young_modulus"] / E, 0.9428 / 1.3505, 3)
+        said = sinew("simulate", path, "-o", self.out).stdout
+        (shown,) = json.loads((self.out / "run.json").read_text())["moduli_at_probes"]
+        self.assertAlmostEqual(shown["young_modulus"] / span["shown_modulus"], 1, delta=0.05)
+        self.assertAlmostEqual(self.force() / (11 * layer) ** 2 / 0.005 / span["shown_modulus"]
+                               / checked["grip_factor"], 1, delta=0.05)
+        self.assertAlmostEqual(shown["young_modulus_asked"] / E, 1, 12)
+        self.assertIn("young_modulus at middle: ", said)
+        sinew("measure", self.out)
+        report = (self.out / "report.html").read_text()
+        for words in ("below to above", "at probe middle"):
+            self.assertIn(words, report)
+        self.assertNotIn("modulus", sinew("check", path, "--set", "material.model=bonded").stderr)
+
     def test_check_names_how_much_too_stiff_grips_make_a_bar(self):
         """A layer at each grip does not stretch: the shorter a bar, the more does that count."""
         layer = R * 2 ** 0.5

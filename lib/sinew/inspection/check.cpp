@@ -17,6 +17,7 @@
 #include <sinew/scene/check/model_limits.h>
 #include <sinew/scene/check/needs.h>
 #include <sinew/scene/check/rest_trial.h>
+#include <sinew/scene/check/stiffness.h>
 #include <sinew/scene/check/warnings.h>
 #include <sinew/scene/groups.h>
 #include <sinew/scene/intrusions.h>
@@ -159,6 +160,25 @@ void add_planes(const Body& body, Findings& results) {
   results.add("lack_of_bending_stiffness", 100 * softest.lack, "%");
 }
 
+/// Adds results between supports and loads.
+void add_spans(const Prepared& prepared, Findings& results) {
+  auto all = nlohmann::ordered_json::array();
+  for (const SpanStiffness& span : stiffness_between_grips(prepared)) {
+    results.add_line("along_span",
+                     span.from + " to " + span.to + ", " + three_digits(span.young_modulus) +
+                         " Pa, " + three_digits(span.planes) + " planes across, " +
+                         (span.bends ? "bends up to " : "pulls up to ") +
+                         three_digits(100 * span.lack_shown()) + " % softer by its size");
+    all.push_back({{"from", span.from},
+                   {"to", span.to},
+                   {"bends", span.bends},
+                   {"young_modulus", span.young_modulus},
+                   {"planes_across", span.planes},
+                   {"shown_modulus", span.shown_modulus()}});
+  }
+  if (!all.empty()) results.add_value("along_spans", std::move(all));
+}
+
 /// What the flesh of bones that stretch reaches from end to end.
 void add_stretches(const Prepared& prepared, Findings& results) {
   for (const Track& track : prepared.motion.tracks) {
@@ -297,7 +317,7 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
   const StepperChoice choice = stepper_choice(prepared.settings.solver);
   const double speed = farthest_carried(prepared);
   check.warnings = warnings_of(prepared, speed);
-  warn_of_stiffness(prepared.body, check.warnings);
+  warn_of_stiffness(prepared, check.warnings);
   warn_of_memory(needs, check.warnings);
   for (const std::string& warning : prepared.report->warnings) check.warnings.push_back(warning);
   const double at_rest = speed_at_rest(prepared, check.warnings);
@@ -311,6 +331,7 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
       prepared.body, prepared.load_steps ? std::nullopt : prepared.settings.material.damping_ratio,
       modes, results);
   add_planes(prepared.body, results);
+  add_spans(prepared, results);
   for (const ModelLimit& limit : model_limits(prepared))
     results.add(limit.key, limit.value, limit.text);
   add_stretches(prepared, results);

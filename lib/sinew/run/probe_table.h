@@ -6,10 +6,13 @@
 //     table.close();
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sinew/io/frame_table.h>
@@ -23,6 +26,23 @@ struct ProbedValues {
   std::span<const double> strain, stress;  ///< 6 each; Pa
   const Points& force;                     ///< of the world, N; empty: none
 };
+
+/// Young's modulus as a probe shows it: where its mean stress is uniaxial.
+struct ShownModulus {
+  std::string probe;
+  double stress;                ///< the largest principal value by size, Pa
+  double strain;                ///< change of length along it over the length at rest
+  std::optional<double> asked;  ///< Pa; none where the body's parts differ in modulus
+
+  double young_modulus() const { return stress / strain; }
+};
+
+/// The stress along its axis and the strain there, of a mean stress (Cauchy's, Pa) and strain
+/// (Green-Lagrange), XX YY ZZ XY YZ XZ, whose other principal stresses are below 5 % of the von
+/// Mises stress; none for other stresses, and for strains that are rounding. The strain is the
+/// principal one of the same sign: it turns with the body.
+std::optional<std::pair<double, double>> uniaxial(std::span<const double, 6> stress,
+                                                  std::span<const double, 6> strain);
 
 /// Columns: time (s), name, x, y, z (m, mean place), displacement_x, displacement_y,
 /// displacement_z (m), strain_xx to strain_xz (Green-Lagrange), stress_xx to stress_xz (Pa,
@@ -41,10 +61,16 @@ class ProbeTable {
   /// Names of those of which none of the particles had a strain or a stress in some frame.
   const std::set<std::string>& unknown() const { return unknown_; }
 
+  /// What the frame added last shows of a body.
+  std::vector<ShownModulus> moduli(const Body& body) const;
+
  private:
+  using Tensor = std::array<double, 6>;
+
   std::vector<Probe> probes_;
   FrameTable table_;
   std::set<std::string> unknown_;
+  std::vector<std::array<Tensor, 2>> last_;  ///< strain and stress of each probe
 };
 
 }  // namespace sinew

@@ -143,17 +143,36 @@ FactGroup fill_facts(const std::string& body_meta) {
   return group;
 }
 
+/// "8e+04 Pa: 1e+05 Pa less up to 20 % for 5 planes across".
+std::string less_by_size(double along, double lack, double planes) {
+  return with_unit(along * (1 - lack), "Pa") + ": " + with_unit(along, "Pa") + " less up to " +
+         three_digits(100 * lack) + " % for " + three_digits(planes) + " planes across";
+}
+
 /// What a body that bends along each bone shows, from run.json.
 FactGroup stiffness_facts(const nlohmann::ordered_json& record) {
   FactGroup group{"Young's modulus in bending, along bones", {}};
   for (const auto& bone : record.value("stiffness_along_bones", nlohmann::ordered_json::array())) {
     const double along = bone.value("young_modulus", 0.0);
     const double lack = bone.value("lack_of_bending_stiffness", 0.0);
-    group.facts.push_back({bone.value("bone", ""),
-                           with_unit(along * (1 - lack), "Pa") + ": " + with_unit(along, "Pa") +
-                               " less up to " + three_digits(100 * lack) + " % for " +
-                               three_digits(bone.value("planes_across", 0.0)) + " planes across"});
+    group.facts.push_back(
+        {bone.value("bone", ""), less_by_size(along, lack, bone.value("planes_across", 0.0))});
   }
+  return group;
+}
+
+/// What a body shows that supports and loads strain, from run.json: as foreseen, and at probes.
+FactGroup modulus_facts(const nlohmann::ordered_json& record) {
+  FactGroup group{"Young's modulus, between supports and loads", {}};
+  const auto none = nlohmann::ordered_json::array();
+  for (const auto& span : record.value("stiffness_along_spans", none)) {
+    const double along = span.value("young_modulus", 0.0), lack = span.value("lack", 0.0);
+    group.facts.push_back({span.value("from", "") + " to " + span.value("to", ""),
+                           less_by_size(along, lack, span.value("planes_across", 0.0)) +
+                               (span.value("bends", false) ? ", in bending" : "")});
+  }
+  for (const auto& entry : record.value("moduli_at_probes", none))
+    group.facts.push_back({"at probe " + entry.value("probe", ""), modulus_text(entry)});
   return group;
 }
 
@@ -217,6 +236,7 @@ std::vector<FactGroup> facts_of(const RunFolder& folder, const std::string& body
           material_facts(record),
           load_step_facts(record),
           stiffness_facts(record),
+          modulus_facts(record),
           fill_facts(body_meta)};
 }
 

@@ -98,6 +98,14 @@ std::string scene_name(const RunFolder& folder) {
   return std::filesystem::absolute(folder.path / ".").lexically_normal().parent_path().filename();
 }
 
+std::string modulus_text(const nlohmann::ordered_json& entry) {
+  const auto pascals = [&](const char* key) { return three_digits(entry.value(key, 0.0)) + " Pa"; };
+  const std::string asked =
+      entry.contains("young_modulus_asked") ? "; asked: " + pascals("young_modulus_asked") : "";
+  return pascals("young_modulus") + ", by a stress of " + pascals("stress") + " at a strain of " +
+         three_digits(entry.value("strain", 0.0)) + asked;
+}
+
 Error without_frames(const RunFolder& folder) {
   const Place place{folder.path.string()};
   const std::string status = status_of(folder);

@@ -31,6 +31,9 @@ std::string status_of(const RunFolder& folder);
 /// where that has none, or only "scene".
 std::string scene_name(const RunFolder& folder);
 
+/// Young's modulus as a probe shows it, beside the one asked for: an entry of moduli_at_probes.
+std::string modulus_text(const nlohmann::ordered_json& entry);
+
 /// For a run whose first frame is still to come, or never came: says so, and what to do.
 Error without_frames(const RunFolder& folder);
 /// Throws it where nothing of a first frame is there.

@@ -401,6 +401,8 @@ class Run {
         warn("probe " + shown(name) + " has no strain or stress in some frames, empty cells of " +
              "probes.csv: its particles are inverted or have too few neighbors; make the load " +
              "smaller, or place it where the body is thicker");
+    if (const ProbeTable* probes = writer_->probes())
+      log_.describe(probes->moduli(simulation_->body()));
     warn_of_inverted();
     warn_of_buckling();
     describe_retakes();

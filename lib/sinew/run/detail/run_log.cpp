@@ -10,7 +10,7 @@
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/run/run_record.h>
-#include <sinew/scene/check/warnings.h>
+#include <sinew/scene/check/stiffness.h>
 #include <sinew/settings/table.h>
 
 namespace sinew {
@@ -132,6 +132,13 @@ void RunLog::describe(const Prepared& prepared) {
                                                 {"young_modulus", bone.young_modulus},
                                                 {"planes_across", bone.planes},
                                                 {"lack_of_bending_stiffness", bone.lack}});
+  for (const SpanStiffness& span : stiffness_between_grips(prepared))
+    record_["stiffness_along_spans"].push_back({{"from", span.from},
+                                                {"to", span.to},
+                                                {"bends", span.bends},
+                                                {"young_modulus", span.young_modulus},
+                                                {"planes_across", span.planes},
+                                                {"lack", span.lack_shown()}});
   record_["duration"] = settings.solver.duration;
   record_["frame_interval"] = settings.output.interval;
   record_["time_step"] = steps.step;
@@ -267,6 +274,19 @@ void RunLog::frames(int written) {
   auto& steps = record_["load_steps"];
   while (steps.size() > static_cast<std::size_t>(written)) steps.erase(steps.size() - 1);
   describe_unbalanced();
+}
+
+void RunLog::describe(const std::vector<ShownModulus>& moduli) {
+  if (!moduli.empty()) record_["moduli_at_probes"] = Json::array();
+  for (const ShownModulus& one : moduli) {
+    Json row{{"probe", one.probe},
+             {"young_modulus", one.young_modulus()},
+             {"stress", one.stress},
+             {"strain", one.strain}};
+    if (one.asked) row["young_modulus_asked"] = *one.asked;
+    log("Young's modulus at probe " + shown(one.probe) + ": " + modulus_text(row));
+    record_["moduli_at_probes"].push_back(std::move(row));
+  }
 }
 
 void RunLog::end(const std::string& status, const Simulation& simulation) {

@@ -12,6 +12,7 @@
 #include <sinew/core/file.h>
 #include <sinew/io/checkpoint.h>
 #include <sinew/run/engine_steps.h>
+#include <sinew/run/probe_table.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/steps.h>
@@ -46,6 +47,8 @@ class RunLog {
 
   /// Describes the steps of frames that were taken anew, and the speeds that were limited.
   void describe(const GuardState& guard, const LimitedSpeeds& limited);
+  /// Describes what the last frame shows of Young's modulus.
+  void describe(const std::vector<ShownModulus>& moduli);
   /// Writes run.json with the results of `simulation`. Throws not written.
   void end(const std::string& status, const Simulation& simulation);
   /// Records the end of a run that threw, as far as the disk permits.

@@ -18,21 +18,6 @@
 
 namespace sinew {
 
-std::vector<BoneStiffness> stiffness_along_bones(const Body& body) {
-  const Material& material = body.material;
-  std::vector<BoneStiffness> all;
-  for (std::size_t b = 0; b < body.skeleton.size(); ++b) {
-    const Bone& bone = body.skeleton.bones[b];
-    const double planes =
-        std::sqrt(body.binding.cross_section[b]) / half_plane_spacing(material.pair.r);
-    if (!(planes > 0)) continue;
-    const Vec3 along = body.lattice.transpose() * bone.rest.rotation.col(0);
-    all.push_back({bone.name, material.constants().young_modulus(along), planes,
-                   lack_of_bending_stiffness(planes, material.bond.second > 0)});
-  }
-  return all;
-}
-
 namespace {
 
 using Warnings = std::vector<std::string>;
@@ -43,7 +28,6 @@ using Warnings = std::vector<std::string>;
 constexpr double largest_fall = 0.9e-3, smallest_barrier = 0.055;
 constexpr double fastest_bone =
     0.5;  // radii per step: faster bones pass neighbors instead of pushing them
-constexpr double largest_miss = 0.1;        // of a modulus
 constexpr double largest_overstress = 0.1;  // of the yield stress
 constexpr double deepest_start = 0.1;       // radii inside an obstacle: more is visible as a kick
 constexpr double largest_face = 4;          // particles along a side
@@ -406,31 +390,6 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
     warnings.push_back(note);
   warn_of_still_body(prepared, warnings);
   return warnings;
-}
-
-void warn_of_stiffness(const Body& body, std::vector<std::string>& warnings) {
-  const double asked = body.material.young_modulus();
-  const auto bones = stiffness_along_bones(body);
-  const auto miss = [&](const BoneStiffness& bone) {
-    return std::abs(bone.bending_modulus() / asked - 1);
-  };
-  const auto count = std::count_if(bones.begin(), bones.end(), [&](const BoneStiffness& bone) {
-    return miss(bone) > largest_miss;
-  });
-  if (count == 0) return;
-  const BoneStiffness& worst = *std::max_element(
-      bones.begin(), bones.end(), [&](const auto& a, const auto& b) { return miss(a) < miss(b); });
-  const bool softer = worst.bending_modulus() < asked;
-  const bool isotropic = body.material.bond.second > 0;
-  warnings.push_back(
-      "bends along " + std::to_string(count) + " of " + std::to_string(bones.size()) +
-      (bones.size() == 1 ? " bone" : " bones") +
-      " are over 10 % softer or stiffer than the modulus of " + three_digits(asked) +
-      " Pa; most along '" + worst.bone + "': " + three_digits(worst.bending_modulus()) + " Pa, " +
-      std::to_string(std::lround(100 * miss(worst))) + (softer ? " % softer" : " % stiffer") +
-      ", of " + three_digits(worst.planes) + " planes across; make body.radius smaller" +
-      (isotropic ? ""
-                 : ", or use material.model bonded with fcc packing, which makes up for most"));
 }
 
 }  // namespace sinew

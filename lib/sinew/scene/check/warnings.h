@@ -20,21 +20,4 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
 /// material that sticks to itself.
 void warn_of_contacts(const Prepared& prepared, std::vector<std::string>& warnings);
 
-/// How stiff the filled body is along a bone, beside the Young's modulus that was asked for.
-struct BoneStiffness {
-  std::string bone;
-  double young_modulus;  ///< of the material along the bone, Pa
-  double planes;         ///< half-planes of particles across the body there
-  double lack;           ///< fraction of the bending stiffness that so few of them lack, at most
-
-  /// Returns the modulus that a bending body shows, Pa.
-  double bending_modulus() const { return young_modulus * (1 - lack); }
-};
-
-/// Finds the stiffness along each bone that holds particles.
-std::vector<BoneStiffness> stiffness_along_bones(const Body& body);
-
-/// Adds a line where a bending body shows another modulus than that, by over 10 % at some bone.
-void warn_of_stiffness(const Body& body, std::vector<std::string>& warnings);
-
 }  // namespace sinew
