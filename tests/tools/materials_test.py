@@ -7,6 +7,7 @@ usage: materials_test.py BIN SOURCE      folder of the programs, folder of the p
 import csv
 import functools
 import json
+import re
 import sys
 import tempfile
 import unittest
@@ -182,10 +183,14 @@ output: {{interval: 1}}
         sinew("simulate", path, "-o", self.out)
         sinew("measure", self.out)
         with open(self.out / "metrics.csv", newline="") as file:
-            volume = [float(row["particle_volume"]) for row in csv.DictReader(file)]
+            rows = list(csv.DictReader(file))
+        volume = [float(row["particle_volume"]) for row in rows]
         bulk = E / (3 * (1 - 2 * nu))
         factor = json.loads(sinew("check", path, "--json").stdout)["bulk_compression_factor"]
         self.assertAlmostEqual((1 - volume[1] / volume[0]) / (pressure / bulk) / factor, 1, delta=0.1)
+        skin = float(rows[1]["volume_error"]) / (pressure / bulk)
+        told = re.search(r"mostly (\S+) to (\S+) times", sinew("check", path, "--verbose").stdout)
+        self.assertTrue(float(told[1]) - 0.1 < skin < float(told[2]) + 0.1, (skin, *told.groups()))
 
     def test_check_names_what_a_crack_takes_and_where_friction_ends(self):
         path = self.folder / "bar.yaml"

@@ -17,9 +17,8 @@ namespace {
 
 // A crack that grows in a double cantilever, over the energy of the bonds that are cut.
 constexpr double crack_factor_low = 3.2, crack_factor_high = 3.6;
-// What bulk_compression_factor() says over what bodies show: of cubes whose faces are no planes of
-// the packing mostly 1.15 to 1.6.
-constexpr double largest_excess = 1.6;
+// What bulk_compression_factor() says over what skins of bodies show, mostly; 0.86 has been seen.
+constexpr double smallest_excess = 1.15, largest_excess = 1.6;
 // Degrees of a slope on which a block rests without friction: layers interlock.
 constexpr double interlocking_slope = 20;
 
@@ -84,12 +83,16 @@ std::vector<ModelLimit> model_limits(const Prepared& prepared) {
   if (keeps_volume(body) && !prepared.surface.triangles.faces.empty()) {
     const double layers = layers_of_equal_cube(prepared.surface.triangles, body.material.pair.r);
     const double factor = bulk_compression_factor(layers, material.poisson_ratio);
-    limits.push_back(
-        {"bulk_compression_factor", factor,
-         "times as much as the bulk modulus says, under a pressure all around: the "
-         "skin of a body with the surface of a cube of " +
-             three_digits(layers) + " layers gives way; by how its packing lies to its faces, " +
-             three_digits(std::max(1.0, factor / largest_excess)) + " to " + three_digits(factor)});
+    limits.push_back({"bulk_compression_factor", factor,
+                      "times as much as the bulk modulus says, under a pressure all around: the "
+                      "skin of a body with the surface of a cube of " +
+                          three_digits(layers) +
+                          " layers gives way, by the volume of its particles; by that of its skin "
+                          "(volume_error) "
+                          "mostly " +
+                          three_digits(std::max(1.0, factor / largest_excess)) + " to " +
+                          three_digits(std::max(1.0, factor / smallest_excess)) +
+                          " times, which scatters with how the packing lies"});
   }
   if (material.friction > 0 || has_several_components(prepared.filled.component))
     limits.push_back({"friction_floor", std::tan(interlocking_slope * std::numbers::pi / 180),

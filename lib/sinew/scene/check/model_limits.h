@@ -29,8 +29,8 @@ std::vector<ModelLimit> model_limits(const Prepared& prepared);
 double grip_factor(const Body& body);
 
 /// How much more than its bulk modulus says a cube of so many layers is compressed by a pressure
-/// all around, for its skin keeps its volume less. Of cubes whose faces are planes of the packing;
-/// of others it is mostly 15 to 60 % too high, and scatters with how the packing lies.
+/// all around, for its skin keeps its volume less: by the volume of its particles. For the volume
+/// of the skin it is mostly 15 to 60 % too high, and scatters with how the packing lies.
 double bulk_compression_factor(double layers, double poisson_ratio);
 
 }  // namespace sinew
