@@ -150,5 +150,19 @@ TEST(ContinuumLimit, WhatWasNotMeasuredHasNoLimit) {
   EXPECT_TRUE(std::isnan(continuum_limit(std::vector<double>{0.1}, std::vector<double>{1}).value));
 }
 
+TEST(LargestOfOneSign, KeepsItsSideThroughAllSizes) {
+  const std::vector<std::vector<double>> runs = {
+      {0.9, -1.0}, {1.02, -1.01}, {not_measured, -1.02}, {}};
+  const std::vector<double> low = largest_of_one_sign(runs);
+  EXPECT_EQ(std::vector<double>(low.begin(), low.begin() + 3), (std::vector{-1.0, -1.01, -1.02}));
+  EXPECT_TRUE(std::isnan(low[3]));
+  std::vector<std::vector<double>> other = runs;
+  for (auto& run : other)
+    for (double& value : run) value = -value;
+  EXPECT_EQ(largest_of_one_sign(other)[1], 1.01);
+  const std::vector<std::vector<double>> one = {{0.5, 2, -1}};
+  EXPECT_EQ(largest_of_one_sign(one)[0], 2);
+}
+
 }  // namespace
 }  // namespace sinew::study_test

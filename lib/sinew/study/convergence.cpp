@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include <sinew/core/decompositions.h>
@@ -130,6 +131,25 @@ double extrapolated(const Sample* s, double order) {
 }
 
 }  // namespace
+
+std::vector<double> largest_of_one_sign(std::span<const std::vector<double>> runs) {
+  const auto farthest = [&](double sign) {
+    std::vector<double> found;
+    for (const std::vector<double>& run : runs) {
+      found.push_back(not_measured);
+      for (const double value : run)
+        if (std::isfinite(value) && !(sign * value <= sign * found.back())) found.back() = value;
+    }
+    return found;
+  };
+  const auto sum = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0, [](double total, double value) {
+      return std::isfinite(value) ? total + value : total;
+    });
+  };
+  std::vector<double> high = farthest(1), low = farthest(-1);
+  return sum(high) + sum(low) < 0 ? low : high;
+}
 
 ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const double> values) {
   const auto missing = [](double value) { return !std::isfinite(value); };

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <sinew/metrics/statistics.h>
 
@@ -34,5 +35,10 @@ struct ContinuumLimit {
 /// three sizes, from those of a line, of the line through the smaller two, and of the extrapolation
 /// by the order (Roache's, doi 10.1115/1.2910291) where it is between 1/2 and 3.
 ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const double> values);
+
+/// The value of each run that is farthest to one side, with its sign: to the side on which the runs
+/// together go farther from zero, lest it jumps between extremes of almost the same size.
+/// Not-a-number for a run without values.
+std::vector<double> largest_of_one_sign(std::span<const std::vector<double>> runs);
 
 }  // namespace sinew

@@ -103,14 +103,6 @@ bool is_reported(const Values& values) {
 
 double last_of(const Values& values) { return values.empty() ? not_measured : values.back(); }
 
-/// Farthest from zero, with its sign.
-double largest_of(const Values& values) {
-  double most = not_measured;
-  for (const double value : values)
-    if (std::isfinite(value) && !(std::abs(value) <= std::abs(most))) most = value;
-  return most;
-}
-
 double worst_of(const Opened& run, std::size_t metric) {
   const MetricSummary& summary = run.measured.summary.metrics[metric];
   if (!summary.worst_frame) return not_measured;
@@ -155,7 +147,10 @@ class ResultsOf {
       return none;
     };
     add(column.name, "final", column.unit, [&](std::size_t run) { return last_of(of(run)); });
-    add(column.name, "largest", column.unit, [&](std::size_t run) { return largest_of(of(run)); });
+    std::vector<Values> all;
+    for (std::size_t run = 0; run < runs_.size(); ++run) all.push_back(of(run));
+    const Values largest = largest_of_one_sign(all);
+    add(column.name, "largest", column.unit, [&](std::size_t run) { return largest[run]; });
   }
 
   const std::vector<Opened>& opened_;
