@@ -78,7 +78,8 @@ TEST(MovingCells, AreTornByACut) {
   std::vector<char> apart;
   for (const auto& [i, j] : cells.pairs()) apart.push_back(above(i) != above(j));
   EXPECT_GT(std::count(apart.begin(), apart.end(), 1), 100);
-  const std::vector<std::int32_t> torn = cells.torn(apart);
+  const std::vector<std::int32_t> torn =
+      cells.torn(apart, std::vector<double>(cells.rest().cells.size(), 1));
   const VolumeCells& body = cells.rest();
   for (std::size_t c = 0; c < body.cells.size(); ++c) {
     int on_top = 0, particles = 0;
@@ -86,6 +87,32 @@ TEST(MovingCells, AreTornByACut) {
       if (const std::int32_t i = body.beside[v]; i >= 0) ++particles, on_top += above(i);
     EXPECT_EQ(torn[c], on_top > 0 && on_top < particles);
   }
+}
+
+/// Points of border cells follow both sides of a crack: where it opens, no cell spans it unmarked.
+TEST(MovingCells, AreTornBesideACrackThatOpens) {
+  Points rest;
+  const MovingCells cells = ball_of(Packing::fcc, rest);
+  Points now = rest;
+  const auto above = [&](std::uint32_t i) {
+    return rest[i].z() > 0.5 * half_plane_spacing(radius);
+  };
+  for (std::uint32_t i = 0; i < now.size(); ++i)
+    if (above(i)) now[i].z() += 2 * radius;
+  std::vector<char> apart;
+  for (const auto& [i, j] : cells.pairs()) apart.push_back(above(i) != above(j));
+  const std::vector<double> J = cells.volume_ratios(cells.at(now));
+  const auto cut = cells.torn(apart, std::vector<double>(J.size(), 1)), torn = cells.torn(apart, J);
+  int beside = 0;
+  for (std::size_t c = 0; c < J.size(); ++c) {
+    EXPECT_FALSE(torn[c] == 0 && J[c] > largest_whole) << J[c];
+    EXPECT_TRUE(torn[c] == cut[c] || J[c] > largest_whole);
+    beside += torn[c] - cut[c];
+  }
+  EXPECT_GT(beside, 0);
+  const std::vector<char> whole(apart.size());
+  for (const std::int32_t one : cells.torn(whole, std::vector<double>(J.size(), 2)))
+    EXPECT_EQ(one, 0) << "where nothing breaks, cells may be stretched";
 }
 
 TEST(MovingCells, KnowNearestAndSecondNeighbors) {

@@ -246,7 +246,8 @@ std::vector<WrittenArray> table_of_volume() {
       {"volume", cell, "J", "1", one, real, scalars, "volume over the volume at rest"},
       {"volume", cell, "torn", "1", one, whole, plain,
        "1 where particles of the cell are apart: their bond is broken or, in the paper's model, "
-       "they touched at rest and are farther than b from each other"},
+       "they touched at rest and are farther than b from each other; or the cell lies beside such "
+       "a cell, and J exceeds 1.5"},
   };
 }
 

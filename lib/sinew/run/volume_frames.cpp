@@ -34,8 +34,9 @@ Dataset VolumeFrames::at(const Dataset& particles, const std::vector<char>& apar
     }
     data.point_columns.push_back(std::move(found));
   }
-  data.cell_columns = {column("J", cells_.volume_ratios(data.points)),
-                       column("torn", cells_.torn(apart))};
+  std::vector<double> ratios = cells_.volume_ratios(data.points);
+  std::vector<std::int32_t> torn = cells_.torn(apart, ratios);
+  data.cell_columns = {column("J", std::move(ratios)), column("torn", std::move(torn))};
   return data;
 }
 

@@ -123,10 +123,30 @@ std::vector<double> MovingCells::volume_ratios(const Points& now) const {
   return ratios;
 }
 
-std::vector<std::int32_t> MovingCells::torn(const std::vector<char>& apart) const {
+std::vector<std::int32_t> MovingCells::torn(const std::vector<char>& apart,
+                                            const std::vector<double>& volume_ratios) const {
   std::vector<std::int32_t> torn(cells_.cells.size());
   for (const auto& [pair, cell] : pair_of_cell_)
     if (apart[pair]) torn[cell] = 1;
+  std::vector<char> at_crack(cells_.points.size());
+  const auto mark = [&](std::size_t cell) {
+    for (const std::uint32_t point : cells_.cells[cell]) at_crack[point] = 1;
+  };
+  std::vector<std::size_t> stretched;
+  for (std::size_t c = 0; c < torn.size(); ++c)
+    if (torn[c] != 0)
+      mark(c);
+    else if (volume_ratios[c] > largest_whole)
+      stretched.push_back(c);
+  const auto reached = [&](std::size_t c) {
+    const auto& points = cells_.cells[c];
+    if (std::none_of(points.begin(), points.end(), [&](auto point) { return at_crack[point]; }))
+      return false;
+    torn[c] = 1, mark(c);
+    return true;
+  };
+  while (std::erase_if(stretched, reached) > 0) {
+  }
   return torn;
 }
 

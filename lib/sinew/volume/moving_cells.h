@@ -18,6 +18,9 @@
 
 namespace sinew {
 
+/// Beside a crack, a cell of a larger volume ratio spans it: its points follow both sides.
+inline constexpr double largest_whole = 1.5;
+
 class MovingCells {
  public:
   /// The cells of particles at `rest` (m, by id) with `radius` (m).
@@ -41,8 +44,10 @@ class MovingCells {
   const std::vector<std::array<std::uint32_t, 2>>& pairs() const { return pairs_; }
   /// Whether particles of each pair touch at rest.
   const std::vector<char>& touching() const { return touching_; }
-  /// 1 for cells with a pair that is apart, one number per pair.
-  std::vector<std::int32_t> torn(const std::vector<char>& apart) const;
+  /// 1 for cells with a pair that is apart, one number per pair, and for those that hang on to them
+  /// across the crack: with a volume ratio above largest_whole, and a point of a torn cell.
+  std::vector<std::int32_t> torn(const std::vector<char>& apart,
+                                 const std::vector<double>& volume_ratios) const;
 
  private:
   MovingCells(VolumeCells cells, const Points& rest, double radius,
