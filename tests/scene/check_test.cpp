@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is doubtful in a scene is said before it runs.
 #include <sinew/scene/check/needs.h>
+#include <sinew/scene/check/rest_trial.h>
 #include <sinew/scene/check/warnings.h>
 
 #include <gtest/gtest.h>
@@ -185,6 +186,32 @@ TEST(SceneWarnings, TellOfLegsThatMeetAndStick) {
   for (const char* material : {"cohesion: initial_neighbors", "model: bonded"})
     EXPECT_FALSE(told(warnings_of(legs(0.02, closing + "material: {" + material + "}\n")), advice))
         << material;
+}
+
+/// A bar of the paper's model whose second neighbors pull.
+RestTrial trial_of(const std::string& keys, const std::string& b = "2.8284") {
+  const TempFolder folder;
+  folder.write("bar.obj", bar(fine));
+  const std::string material = "material: {young_modulus: 1e4, lambda: 0.05, b: " + b + "}\n";
+  return try_rest(prepare({read_scene(
+      folder.write("scene.yaml", "body: {mesh: bar.obj, radius: 0.006}\n" + material + keys))}));
+}
+
+TEST(RestTrial, WarnsOfABodyThatItsBonesDoNotHold) {
+  const std::string held = "skeleton: {bones: [" + two_bones +
+                           "]}\nbinding: {stiffness: 1e-3, twist_stiffness: 1e-3, "
+                           "axial_stiffness: 1e-3}\n";
+  const RestTrial trial = trial_of(held);
+  EXPECT_EQ(trial.state, RestState::unstable) << text_of(trial);
+  EXPECT_NE(warning_of(trial).find("set material.b to 2.75"), std::string::npos)
+      << warning_of(trial);
+  EXPECT_EQ(warning_of(trial_of(held, "2.75")), "");
+}
+
+TEST(RestTrial, IsOfBodiesWithoutBonesToo) {
+  for (const char* around : {"loads: [{name: push, force: [0.02, 0, 0]}]\n",
+                             "world: {obstacles: [{name: floor, shape: plane}]}\n"})
+    EXPECT_GT(trial_of(around).particles, 0u);
 }
 
 }  // namespace sinew::check_test

@@ -326,7 +326,10 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
                       static_cast<double>(prepared.filled.particles.size());
   add_sizes(prepared, results);
   add_material(prepared.body.material, results);
-  add_rest(try_rest(prepared), results);
+  const RestTrial rest = try_rest(prepared);
+  if (const std::string warning = warning_of(rest); !warning.empty())
+    check.warnings.push_back(warning);
+  add_rest(rest, results);
   check.shapes = add_modes(
       prepared.body, prepared.load_steps ? std::nullopt : prepared.settings.material.damping_ratio,
       modes, results);

@@ -228,11 +228,11 @@ void let_pass(Prepared& prepared) {
 }
 
 /// Binds the particles to the bones, in their world.
-void bind(const SceneFiles& files, const ForceLaw* law, Prepared& prepared) {
+void bind(const SceneFiles& files, const Scene& scene, Prepared& prepared) {
   const Settings& settings = prepared.settings;
-  SceneRig rig = rig_of(settings, files);
+  SceneRig rig = scene.with_rig ? rig_of(settings, files) : SceneRig{};
   prepared.body = make_body(settings, files, std::move(rig.skeleton), prepared.filled.particles,
-                            local_material(prepared.filled), law);
+                            local_material(prepared.filled), scene.law);
   SceneWorld around = world_of(settings, files, prepared.body, prepared.filled.component);
   prepared.body.world = std::move(around.world);
   hold_rigid_parts(settings.binding, prepared.body);
@@ -242,6 +242,7 @@ void bind(const SceneFiles& files, const ForceLaw* law, Prepared& prepared) {
   hold_stretched(prepared.motion, prepared.body.skeleton, prepared.body.material,
                  prepared.body.springs);
   prepared.beginning = begin_of(settings, prepared.body, prepared.motion);
+  prepared.thrown = thrown_parts(settings, prepared.surface, prepared.body.rest);
   prepared.file_warnings = settings.warnings;
   for (const std::string& warning : warnings_of(files)) prepared.file_warnings.push_back(warning);
   prepared.joint_zone = settings.binding.joint_zone;
@@ -303,7 +304,7 @@ Prepared prepare(Scene scene) {
   }
   prepared.seconds_filling = watch.lap();
   prepared.frames = frame_times(settings);
-  bind(files, scene.law, prepared);
+  bind(files, scene, prepared);
   plan(prepared);
   complete(prepared.body, prepared.filled);
   prepared.seconds_binding = watch.lap();

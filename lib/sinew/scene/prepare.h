@@ -62,6 +62,7 @@ struct Scene {
   /// Runs do not write it: whoever measures their files takes the model's.
   const ForceLaw* law = nullptr;
 };
+  bool with_rig = true;  ///< else without bones, even where nothing surrounds the body
 
 /// A scene filled, bound and ready to be stepped.
 struct Prepared {

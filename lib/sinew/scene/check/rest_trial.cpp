@@ -75,6 +75,7 @@ Prepared trial_of(const Prepared& prepared) {
   if (prepared.body.rest.size() > max_tried_particles)
     if (std::optional<Prepared> coarse = coarse_trial(scene)) return *std::move(coarse);
   scene.filled = prepared.filled;
+  scene.with_rig = prepared.body.skeleton.size() > 0;
   return prepare(std::move(scene));
 }
 
@@ -145,3 +146,10 @@ std::string text_of(const RestTrial& trial) {
 }
 
 }  // namespace sinew
+std::string warning_of(const RestTrial& trial) {
+  if (trial.state != RestState::unstable) return "";
+  return "the body does not keep its shape: " + three_digits(trial.shift) + " radii off after " +
+         three_digits(trial.time) +
+         " s of rest; set material.b to 2.75 or less, or material.model to bonded";
+}
+

@@ -35,5 +35,7 @@ RestTrial try_rest(const Prepared& prepared);
 const char* name_of(RestState state);
 /// The same with the figures: "creeps, by 0.025 radii within 10 s".
 std::string text_of(const RestTrial& trial);
+/// What is wrong with an unstable body, and the cure; "": it is not.
+std::string warning_of(const RestTrial& trial);
 
 }  // namespace sinew
