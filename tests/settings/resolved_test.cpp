@@ -85,6 +85,9 @@ class Chance {
     for (int i = 0; i < below(3); ++i) {
       drawn.bodies.push_back(owner(part_fields()));
       drawn.bodies.back().young_modulus.reset();
+      if (drawn.solver.method == Method::static_equilibrium)
+        drawn.bodies.back().body.velocity = drawn.bodies.back().body.angular_velocity =
+            Vec3::Zero();
     }
     for (int i = 0; i < below(3); ++i) drawn.bound.push_back(owner(bound_fields()));
     for (int i = 0; i < below(3); ++i) {
@@ -201,6 +204,7 @@ class Chance {
       drawn.solver.residual.reset();
       drawn.solver.static_solver = StaticSolver::automatic;
     } else {
+      drawn.body.velocity = drawn.body.angular_velocity = Vec3::Zero();
       drawn.solver.integrator = Integrator::symplectic_euler;
       drawn.solver.time_step.reset();
       drawn.solver.neighbor_search = NeighborSearch::lists;

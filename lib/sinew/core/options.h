@@ -44,6 +44,8 @@ struct BodyOptions {
   std::optional<Axis> forward = {};
   Vec3 rotation = Vec3::Zero();
   Vec3 offset = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();          ///< initial, m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< initial, about the center of mass, degrees/s
   double weld = 0;
   FillRule rule = FillRule::unite;
   bool close_holes = false;
@@ -57,6 +59,8 @@ struct BodyOptions {
   int seed = 1;
   Keep keep = Keep::center;
   double clearance = 0;
+
+  bool moves() const { return !velocity.isZero(0) || !angular_velocity.isZero(0); }
 };
 
 /// A further mesh that the body consists of. Of `body` the keys that place and repair the mesh
@@ -108,7 +112,7 @@ struct MaterialOptions {
   double b = 2.6;
   double damping = 0.5;
   std::optional<double> damping_ratio;
-  std::optional<DampingForm> damping_form;  ///< by default rigid with bonds, else the paper's
+  std::optional<DampingForm> damping_form;      ///< by default rigid with bonds, else the paper's
   std::optional<std::vector<double>> rayleigh;  ///< alpha, 1/s, and beta, s
   std::optional<double> breaking_strain;
   std::optional<double> fracture_energy;

@@ -70,6 +70,15 @@ void warn_of_memory(const Needs& needs, std::vector<std::string>& warnings) {
                        " are free: make body.radius larger, or use solver.precision single");
 }
 
+double initial_kinetic_energy(const Prepared& prepared) {
+  Particles particles = prepared.filled.particles;
+  set_initial_velocities(prepared.thrown, prepared.body, particles);
+  double sum = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    sum += mass_of(prepared.body, i, particles.mass) / 2 * particles.velocity(i).squaredNorm();
+  return sum;
+}
+
 void add_sizes(const Prepared& prepared, Findings& results) {
   const Particles& particles = prepared.filled.particles;
   const Triangles& surface = prepared.surface.triangles;
@@ -79,6 +88,8 @@ void add_sizes(const Prepared& prepared, Findings& results) {
   results.add("surface_triangles", surface.faces.size());
   results.add("volume", prepared.report->volume, "m^3");
   results.add("mass", particles.mass * static_cast<double>(particles.size()), "kg");
+  if (!prepared.thrown.empty())
+    results.add("initial_kinetic_energy", initial_kinetic_energy(prepared), "J");
 }
 
 /// How the body rings as it is held. `asked`: its damping ratio. Returns the shapes of its modes.

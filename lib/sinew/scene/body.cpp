@@ -139,24 +139,32 @@ Surface read_mesh(const Settings& settings) {
   return joined(std::move(parts));
 }
 
-std::vector<double> stiffness_of(const Settings& settings, const Surface& surface,
-                                 const Points& rest) {
-  std::vector<double> stiffness;
-  for (std::size_t part = 0; part < settings.bodies.size(); ++part) {
-    const double relative =
-        settings.bodies[part].young_modulus.value_or(settings.material.young_modulus) /
-        settings.material.young_modulus;
-    if (stiffness.empty() && relative == 1) continue;
-    stiffness.resize(rest.size(), 1);
-    const std::size_t first = surface.first_face[part + 1];
-    const std::size_t end = part + 2 < surface.first_face.size() ? surface.first_face[part + 2]
+std::vector<std::size_t> meshes_of_particles(const Settings& settings, const Surface& surface,
+                                             const Points& rest) {
+  std::vector<std::size_t> mesh(rest.size());
+  for (std::size_t part = 1; part <= settings.bodies.size(); ++part) {
+    const std::size_t first = surface.first_face[part];
+    const std::size_t end = part + 1 < surface.first_face.size() ? surface.first_face[part + 1]
                                                                  : surface.triangles.faces.size();
     const Winding winding(corners_of(surface.triangles, first, end));
     parallel_for(rest.size(), 1024, [&](std::size_t begin, std::size_t last) {
       for (std::size_t i = begin; i < last; ++i)
-        if (winding.around(rest[i]).value_or(0) > 0) stiffness[i] = relative;
+        if (winding.around(rest[i]).value_or(0) > 0) mesh[i] = part;
     });
   }
+  return mesh;
+}
+
+std::vector<double> stiffness_of(const Settings& settings, const Surface& surface,
+                                 const Points& rest) {
+  const double own = settings.material.young_modulus;
+  std::vector<double> relative = {1};
+  for (const PartOptions& part : settings.bodies)
+    relative.push_back(part.young_modulus.value_or(own) / own);
+  if (std::count(relative.begin(), relative.end(), 1.0) == std::ssize(relative)) return {};
+  std::vector<double> stiffness;
+  for (const std::size_t mesh : meshes_of_particles(settings, surface, rest))
+    stiffness.push_back(relative[mesh]);
   return stiffness;
 }
 
@@ -297,17 +305,26 @@ void write_mesh_files(const Settings& scene) {
   }
 }
 
+namespace {
+
+/// Whether the particles depend on this text of a body; on its mesh they do by the contents.
+bool fills(std::string_view key) {
+  return key != "mesh" && key != "velocity" && key != "angular_velocity";
+}
+
+}  // namespace
+
 std::string origin_of(const Settings& settings) {
   Hash hash;
   hash.add(bytes_of(settings, settings.body.mesh, "body.mesh"));
   for (const auto& field : settings_table())
-    if ((field.section == "body" && field.name != "mesh") || field.name == "density")
+    if ((field.section == "body" && fills(field.name)) || field.name == "density")
       hash.add(scene_text(field.get(settings), "") + '\n');
   for (std::size_t part = 0; part < settings.bodies.size(); ++part) {
     const PartOptions& options = settings.bodies[part];
     hash.add(bytes_of(settings, options.body.mesh, path_of_part(part, "mesh")));
     for (const auto& field : part_fields())
-      if (field.name != "mesh") hash.add(scene_text(field.get(options), "") + '\n');
+      if (fills(field.name)) hash.add(scene_text(field.get(options), "") + '\n');
     if (options.young_modulus) hash.add(number_text(settings.material.young_modulus));
   }
   for (const LocalMaterialSettings& material : settings.materials)

@@ -52,6 +52,11 @@ Mat3 lattice_axes(const BodyOptions& body);
 /// Reads the meshes that a scene names, as one surface. Errors name the scene's line.
 Surface read_mesh(const Settings& settings);
 
+/// Returns the mesh in which each place of `rest` (m) lies: 0, or the number, from 1, of the last
+/// of the scene's bodies that holds it.
+std::vector<std::size_t> meshes_of_particles(const Settings& settings, const Surface& surface,
+                                             const Points& rest);
+
 /// Returns the stiffness around each place of `rest` (m), over the body's: of the last of the
 /// scene's bodies in which it lies; empty: the same throughout.
 std::vector<double> stiffness_of(const Settings& settings, const Surface& surface,

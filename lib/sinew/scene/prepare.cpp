@@ -16,6 +16,7 @@
 #include <sinew/scene/first_pose.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/groups.h>
+#include <sinew/scene/initial_velocities.h>
 #include <sinew/scene/particle_parts.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/rigid_parts.h>
@@ -241,8 +242,8 @@ void bind(const SceneFiles& files, const Scene& scene, Prepared& prepared) {
   prepared.motion = std::move(rig.motion);
   hold_stretched(prepared.motion, prepared.body.skeleton, prepared.body.material,
                  prepared.body.springs);
-  prepared.beginning = begin_of(settings, prepared.body, prepared.motion);
   prepared.thrown = thrown_parts(settings, prepared.surface, prepared.body.rest);
+  prepared.beginning = begin_of(settings, prepared.body, prepared.motion);
   prepared.file_warnings = settings.warnings;
   for (const std::string& warning : warnings_of(files)) prepared.file_warnings.push_back(warning);
   prepared.joint_zone = settings.binding.joint_zone;
@@ -317,6 +318,7 @@ Simulation start(Prepared&& prepared, const RelaxationProgress& progress) {
   if (prepared.beginning.posed && !prepared.motion.tracks.empty())
     prepared.filled.particles = posed(prepared.body, prepared.motion, prepared.filled.particles,
                                       prepared.settings.solver, progress);
+  set_initial_velocities(prepared.thrown, prepared.body, prepared.filled.particles);
   prepared.body.neighbors.reset();  // stepping has lists of its own
   Simulation simulation(std::move(prepared.body), std::move(prepared.motion),
                         std::move(prepared.filled.particles),

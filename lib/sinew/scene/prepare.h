@@ -17,6 +17,7 @@
 #include <sinew/rig/binding.h>
 #include <sinew/scene/body.h>
 #include <sinew/scene/first_pose.h>
+#include <sinew/scene/initial_velocities.h>
 #include <sinew/scene/intrusions.h>
 #include <sinew/scene/machine.h>
 #include <sinew/scene/scene_files.h>
@@ -61,8 +62,8 @@ struct Scene {
   /// In place of the law of material.model, which must have bonds where it has; see Material::law.
   /// Runs do not write it: whoever measures their files takes the model's.
   const ForceLaw* law = nullptr;
-};
   bool with_rig = true;  ///< else without bones, even where nothing surrounds the body
+};
 
 /// A scene filled, bound and ready to be stepped.
 struct Prepared {
@@ -74,6 +75,7 @@ struct Prepared {
   Body body;                              ///< the particles on the bones, in their world
   Motion motion;
   Beginning beginning = {};
+  std::vector<Thrown> thrown = {};  ///< what begins with a velocity
   StepChoice steps;
   std::vector<double> bone_speeds;  ///< before each frame, as bone_speeds() finds them, m/s
   StepPlan plan;
@@ -95,7 +97,8 @@ struct Prepared {
 Prepared prepare(Scene scene);
 
 /// The simulation of a prepared scene, at its start. Where that is the first pose, the body is
-/// relaxed there first: leave out `beginning` for what is restored to another moment.
+/// relaxed there first, and has its initial velocities then: leave out `beginning` for what is
+/// restored to another moment.
 Simulation start(const Prepared& prepared);
 /// The same; takes body, motion, plan and particles out of `prepared`, and copies none of them.
 /// `progress` hears of the relaxation, if there is one.

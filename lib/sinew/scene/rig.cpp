@@ -98,8 +98,8 @@ Rig at_rest(const Settings& settings, const Rig& rig) {
 }
 
 Skeleton skeleton_of(const Settings& settings) {
-  const bool is_alone =
-      settings.supports.empty() && settings.loads.empty() && settings.world.empty();
+  const bool is_alone = settings.supports.empty() && settings.loads.empty() &&
+                        settings.world.empty() && !settings.moves_initially();
   if (settings.bones.empty() && !is_alone) return {};
   Skeleton skeleton = at_keys(settings, "skeleton.", [&] { return make_skeleton(settings.bones); });
   return placed(std::move(skeleton), placement_of(settings.skeleton));

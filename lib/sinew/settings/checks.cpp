@@ -256,6 +256,19 @@ void check_contact(const Settings& settings) {
                     "remove binding.max_force, or set hierarchy.enabled to false");
 }
 
+/// Equilibria have no velocities.
+void check_at_rest(const Settings& settings) {
+  const auto check = [&](const BodyOptions& body, const std::string& path) {
+    if (!body.moves()) return;
+    const std::string key = path + (body.velocity.isZero(0) ? ".angular_velocity" : ".velocity");
+    throw bad_input(settings.place(key), "the static method knows no " + key,
+                    "remove it, or set solver.method to dynamic");
+  };
+  check(settings.body, "body");
+  for (std::size_t i = 0; i < settings.bodies.size(); ++i)
+    check(settings.bodies[i].body, "bodies[" + std::to_string(i) + "]");
+}
+
 /// What the static method does not know.
 void check_static(const Settings& settings) {
   const SolverSettings& solver = settings.solver;
@@ -271,6 +284,7 @@ void check_static(const Settings& settings) {
              "set solver.method to static, or remove it");
     return;
   }
+  check_at_rest(settings);
   if (solver.integrator != Integrator::symplectic_euler)
     refuse("solver.integrator", "the static method integrates no motion in time",
            "remove solver.integrator, or set solver.method to dynamic");

@@ -151,11 +151,11 @@ void read_bodies(const YamlNode& scene, Settings& settings) {
                 settings.bodies.emplace_back(), settings.places);
 }
 
-/// Without bones a body hangs in its testing machine, or falls on obstacles.
+/// Without bones a body hangs in its testing machine, flies, or falls on obstacles.
 bool needs_bones(const YamlNode& scene, const YamlNode& skeleton, const Settings& settings) {
   const YamlNode* world = scene.find("world");
   const bool is_alone = settings.supports.empty() && settings.loads.empty() &&
-                        (world == nullptr || world->items.empty());
+                        (world == nullptr || world->items.empty()) && !settings.moves_initially();
   return is_alone || skeleton.find("bones") != nullptr || !settings.skeleton.file.empty();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/settings/settings.h>
 
+#include <algorithm>
+
 namespace sinew {
 
 Place Settings::place(std::string path) const {
@@ -12,6 +14,11 @@ Place Settings::place(std::string path) const {
   }
   const auto scene = places.find("");
   return scene == places.end() ? Place{} : scene->second;
+}
+
+bool Settings::moves_initially() const {
+  return body.moves() || std::any_of(bodies.begin(), bodies.end(),
+                                     [](const PartOptions& part) { return part.body.moves(); });
 }
 
 }  // namespace sinew

@@ -249,6 +249,9 @@ struct Settings {
   std::map<std::string, Place, std::less<>> places;
   std::vector<std::string> warnings;  ///< of words that have changed, with their places
 
+  /// Whether any of its meshes begins with a velocity.
+  bool moves_initially() const;
+
   /// The place of `path`, or of the nearest enclosing path that has one.
   Place place(std::string path) const;
 };

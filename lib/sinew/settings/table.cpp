@@ -31,6 +31,10 @@ std::vector<Field<S>> rows_of_mesh(std::string_view section) {
                "forward"),
       field<S>(section, "offset", SINEW_AT(S, body.offset), "m",
                "displacement of the mesh, after scale and rotation"),
+      field<S>(section, "velocity", SINEW_AT(S, body.velocity), "m/s",
+               "initial velocity of what fills the mesh"),
+      field<S>(section, "angular_velocity", SINEW_AT(S, body.angular_velocity), "degrees/s",
+               "initial angular velocity of what fills the mesh, about its center of mass"),
       field<S>(section, "weld", SINEW_AT(S, body.weld), "m",
                "merges points of the mesh closer than this; 0 merges identical points only",
                not_negative),
@@ -179,8 +183,8 @@ std::vector<Field<Settings>> make_damping_and_strength() {
           "fraction of the shear beyond yield_strain that flows per unit of time: a bar pulled at "
           "the rate e is pulled at 1 + 1.2 e / (creep_rate yield_strain) of its yield stress (nu "
           "0.25); auto: 2 % more than that stress at the fastest rate that bones, supports, "
-          "obstacles and loads of the scene command, by their turns and their speeds over the "
-          "body's smallest width; check prints it",
+          "obstacles, loads and velocities of the scene command, by their turns and their speeds "
+          "over the body's smallest width; check prints it",
           not_negative, "auto"),
       field<S>("material", "relaxation_shares", SINEW_AT(S, material.relaxation_shares), "",
                "shares of young_modulus, which holds at once, that relax in time (Prony's g_i), of "

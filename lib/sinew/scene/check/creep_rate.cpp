@@ -40,6 +40,12 @@ Rates largest_rates(const Prepared& prepared) {
     const Rates now = rates_at(prepared.body.world.get(), time, poses.at(time));
     largest = {std::max(largest.speed, now.speed), std::max(largest.turn, now.turn)};
   }
+  const auto thrown = [&](const BodyOptions& body) {
+    largest.speed = std::max(largest.speed, body.velocity.norm());
+    largest.turn = std::max(largest.turn, radians(body.angular_velocity.norm()));
+  };
+  thrown(prepared.settings.body);
+  for (const PartOptions& part : prepared.settings.bodies) thrown(part.body);
   for (const double speed : prepared.bone_speeds) largest.speed = std::max(largest.speed, speed);
   return largest;
 }

@@ -34,9 +34,13 @@ TrackDefinition nudge_of(const Bone& bone) {
   return track;
 }
 
+void stop(BodyOptions& body) { body.velocity = body.angular_velocity = Vec3::Zero(); }
+
 /// The scene of the trial: the body on its bones, with nothing around it.
 Settings scene_of_trial(const Prepared& prepared) {
   Settings scene = prepared.settings;
+  for (PartOptions& part : scene.bodies) stop(part.body);
+  stop(scene.body);
   scene.world = {};
   scene.loads.clear();
   scene.probes.clear();
@@ -71,11 +75,11 @@ std::optional<Prepared> coarse_trial(Scene scene) {
 Prepared trial_of(const Prepared& prepared) {
   Scene scene{scene_of_trial(prepared)};
   scene.with_surface = false;
+  scene.with_rig = prepared.body.skeleton.size() > 0;
   scene.law = prepared.body.material.law;
   if (prepared.body.rest.size() > max_tried_particles)
     if (std::optional<Prepared> coarse = coarse_trial(scene)) return *std::move(coarse);
   scene.filled = prepared.filled;
-  scene.with_rig = prepared.body.skeleton.size() > 0;
   return prepare(std::move(scene));
 }
 
@@ -145,7 +149,6 @@ std::string text_of(const RestTrial& trial) {
          " s of rest";
 }
 
-}  // namespace sinew
 std::string warning_of(const RestTrial& trial) {
   if (trial.state != RestState::unstable) return "";
   return "the body does not keep its shape: " + three_digits(trial.shift) + " radii off after " +
@@ -153,3 +156,4 @@ std::string warning_of(const RestTrial& trial) {
          " s of rest; set material.b to 2.75 or less, or material.model to bonded";
 }
 
+}  // namespace sinew
