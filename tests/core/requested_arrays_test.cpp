@@ -58,6 +58,8 @@ TEST(SkinArrays, AreUsualOnesAndThoseThatAreNamed) {
   EXPECT_EQ(named.frame, Names{"velocity"});
   EXPECT_EQ(named.requested.measured, (Names{"J", "stress"}));
   EXPECT_EQ(named.requested.stepped, Names{"force_twist"});
+  EXPECT_TRUE(named.contact.empty());
+  EXPECT_EQ(skin_arrays("contact_area J").contact, Names{"contact_area"});
   EXPECT_TRUE(skin_arrays("displacement, bone").frame.empty());  // the surface has its own
 }
 
@@ -69,6 +71,7 @@ TEST(SkinArrays, AreAllByOneWordButThoseThatTheSurfaceHasOfItsOwn) {
     EXPECT_EQ(std::count(all.frame.begin(), all.frame.end(), name), 1) << name;
   EXPECT_EQ(all.requested.measured.size(), measured_arrays().size());
   EXPECT_EQ(all.requested.stepped.size(), stepped_arrays().size());
+  EXPECT_EQ(all.contact, (Names{"contact_pressure", "contact_area"}));
 }
 
 TEST(SkinArrays, RefuseOtherNamesAndSuggestTheNearest) {

@@ -189,6 +189,17 @@ std::vector<WrittenArray> table_of_surface_in(const char* series, const char* of
   };
 }
 
+std::vector<WrittenArray> table_of_contact() {
+  return {
+      {"surface", point, "contact_pressure", "Pa", one, real, plain,
+       "pressure of obstacles and other bodies on its contact_area, 0 without contact; by "
+       "output.skin"},
+      {"surface", point, "contact_area", "m^2", one, real, plain,
+       "the part of the surface around it, as deformed, that touches an obstacle or another body; "
+       "by output.skin"},
+  };
+}
+
 std::vector<WrittenArray> table_of_surface() {
   std::vector<WrittenArray> rows =
       table_of_surface_in("surface", "point of the input surface, deformed");
@@ -200,6 +211,7 @@ std::vector<WrittenArray> table_of_surface() {
                   "von Mises stress of the particles around it, if the material has bonds; "
                   "likewise",
                   true});
+  for (WrittenArray& row : table_of_contact()) rows.push_back(std::move(row));
   return rows;
 }
 
@@ -394,6 +406,11 @@ std::span<const std::string_view> stepped_arrays() {
   return names;
 }
 
+std::span<const std::string_view> contact_arrays() {
+  static const std::vector<std::string_view> names = names_of(table_of_contact());
+  return names;
+}
+
 std::vector<std::string_view> frame_arrays(std::string_view text) {
   const std::vector<std::string_view> names = names_in_frames();
   std::vector<std::string_view> found;
@@ -433,7 +450,11 @@ SkinArrays skin_arrays(std::string_view text) {
   std::string requested;
   const std::vector<std::string_view> in_frames = names_in_frames();
   std::vector<std::string_view> names = in_frames;
-  for (const auto more : {measured_arrays(), stepped_arrays()})
+  const auto is_contact = [](std::string_view word) {
+    const auto some = contact_arrays();
+    return std::find(some.begin(), some.end(), word) != some.end();
+  };
+  for (const auto more : {measured_arrays(), stepped_arrays(), contact_arrays()})
     names.insert(names.end(), more.begin(), more.end());
   const auto is_in = [](const std::vector<std::string_view>& some, std::string_view word) {
     return std::find(some.begin(), some.end(), word) != some.end();
@@ -442,6 +463,8 @@ SkinArrays skin_arrays(std::string_view text) {
   for (const std::string_view word : words) {
     if (word == "none")
       found.usual = false;
+    else if (is_contact(word))
+      continue;
     else if (word == "all" || (is_in(names, word) && !is_in(in_frames, word)))
       requested += ' ' + std::string(word);
     else if (!is_in(names, word))
@@ -453,6 +476,8 @@ SkinArrays skin_arrays(std::string_view text) {
   for (const std::string_view name : in_frames)
     if ((found.requested.all || is_in(words, name)) && !is_in(own, name))
       found.frame.push_back(name);
+  for (const std::string_view name : contact_arrays())
+    if (found.requested.all || is_in(words, name)) found.contact.push_back(name);
   return found;
 }
 

@@ -49,6 +49,9 @@ std::span<const std::string_view> measured_arrays();
 /// Arrays that forces and bones of the moment define: acceleration, bone_point, force_radial, ...
 std::span<const std::string_view> stepped_arrays();
 
+/// Arrays of the surface alone, of what presses on it: contact_pressure, contact_area.
+std::span<const std::string_view> contact_arrays();
+
 struct RequestedArrays {
   std::vector<std::string_view> measured, stepped;  ///< in the order of the table, each once
   bool all = false;  ///< asked for by "all": those that a body lacks are left out
@@ -64,7 +67,8 @@ RequestedArrays requested_arrays(std::string_view words);
 
 struct SkinArrays {
   bool usual = true;  ///< those that the surface has unasked: strain_eq, von_mises
-  std::vector<std::string_view> frame;  ///< see frame_arrays()
+  std::vector<std::string_view> frame;    ///< see frame_arrays()
+  std::vector<std::string_view> contact;  ///< see contact_arrays()
   RequestedArrays requested;
 };
 

@@ -100,6 +100,9 @@ void FrameData::begin_arrays(const OutputSettings& output, const FrameScene& sce
   const ContentOfSkin skin = content_of_skin(output, body_);
   on_skin_.arrays = skin.named.frame;
   on_skin_too_ = skin.named.requested;
+  contact_arrays_ = skin.named.contact;
+  if (!contact_arrays_.empty()) contacts_.emplace(scene.surface, body_);
+  if (contacts_ && skin.named.requested.all && !contacts_->any()) contact_arrays_.clear();
   const bool with_bonds = output.bonds || (volume_ && bonds_change(body_.material));
   const bool is_measured = !arrays_.measured.empty() || !on_skin_too_.measured.empty() ||
                            !skin.usual.empty() || with_bonds || probed_;
@@ -232,10 +235,24 @@ std::vector<Column> FrameData::columns_of_skin() {
   return columns;
 }
 
+std::vector<Column> FrameData::columns_of_contact() const {
+  if (contact_arrays_.empty()) return {};
+  Points velocities(now_.positions.size());
+  for (std::size_t k = 0; k < velocities.size(); ++k)
+    velocities[static_cast<std::size_t>(now_.particles.id[k])] = now_.particles.velocity(k);
+  SurfaceContact on = contacts_->at(surface_.points, now_.positions, velocities, now_.obstacles);
+  std::vector<Column> columns;
+  for (const std::string_view name : contact_arrays_)
+    columns.push_back(
+        column(std::string(name), std::move(name == "contact_area" ? on.area : on.pressure)));
+  return columns;
+}
+
 Dataset FrameData::surface() {
   surface_.points = follow(skin_, now_.positions);
   Dataset skin = surface_dataset(surface_, skin_.rest, surface_bone_, now_.moment);
   for (Column& array : columns_of_skin()) skin.point_columns.push_back(std::move(array));
+  for (Column& array : columns_of_contact()) skin.point_columns.push_back(std::move(array));
   return skin;
 }
 

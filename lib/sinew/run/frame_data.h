@@ -24,6 +24,7 @@
 #include <sinew/io/particle_frame.h>
 #include <sinew/rig/skin.h>
 #include <sinew/rig/skinning.h>
+#include <sinew/run/contact_pressure.h>
 #include <sinew/run/particle_meter.h>
 #include <sinew/run/support_table.h>
 #include <sinew/run/volume_frames.h>
@@ -133,6 +134,7 @@ class FrameData {
   void add_stepped(std::span<const std::string_view> names, const Points& positions,
                    std::vector<Column>& columns) const;
   std::vector<Column> columns_of_skin();
+  std::vector<Column> columns_of_contact() const;
 
   const Body& body_;
   ParticleSelection selection_;  ///< what the frames of particles contain
@@ -141,10 +143,12 @@ class FrameData {
   Triangles surface_;  ///< its points as they are at the moment that was last drawn
   std::vector<std::int32_t> surface_bone_;
   std::vector<Triangles> obstacles_;
-  BoneWeights vertex_weights_;             ///< for skinning alone, once it is asked for
-  RequestedArrays arrays_;                 ///< additional ones
-  ParticleSelection on_skin_;              ///< the arrays that the surface has of particles
-  RequestedArrays on_skin_too_;            ///< and these
+  BoneWeights vertex_weights_;                    ///< for skinning alone, once it is asked for
+  RequestedArrays arrays_;                        ///< additional ones
+  ParticleSelection on_skin_;                     ///< the arrays that the surface has of particles
+  RequestedArrays on_skin_too_;                   ///< and these
+  std::vector<std::string_view> contact_arrays_;  ///< of the surface
+  std::optional<ContactPressure> contacts_;       ///< which these are found by, if any
   std::vector<Column> skin_columns_;       ///< measured ones of the moment, once they are found
   std::optional<ParticleMeter> measured_;  ///< which these and bonds are computed from, if any
   FrameMoment now_;

@@ -30,7 +30,8 @@ std::vector<Field<Settings>> content_rows() {
                         "arrays of particles that the surface has as well, such as \"velocity, "
                         "stress\", or all; beside strain_eq and, of materials with bonds, "
                         "von_mises, which it has by itself up to 200,000 particles; none: without "
-                        "these two")),
+                        "these two; contact_pressure, contact_area: of obstacles and other "
+                        "bodies")),
       field<S>("output", "every", SINEW_AT(S, output.every), "",
                "writes the particles in every Nth frame only, from the first on; surface and bones "
                "are in all frames",

@@ -75,7 +75,7 @@ double additional_numbers(const OutputSettings& output, const Body& body) {
 double numbers_on_skin(const ContentOfSkin& skin) {
   const SkinArrays& named = skin.named;
   return numbers_in(skin.usual) + numbers_in(named.frame) + numbers_in(named.requested.measured) +
-         numbers_in(named.requested.stepped);
+         numbers_in(named.requested.stepped) + static_cast<double>(named.contact.size());
 }
 
 /// Counts bonds of a particle inside, each shared by two.
