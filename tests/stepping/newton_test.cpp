@@ -106,8 +106,7 @@ TEST(Newton, TellsTheLoadUnderWhichAColumnBuckles) {
   constexpr double to_the_side = 1e-5;
   machine.world.loads = {machine.pull(top, {to_the_side, 0, 0})};
   const Simulation bent = machine.at_rest(by(StaticSolver::newton, 1));
-  const double moved =
-                   positions_by_id(bent.particles())[top[0]].x() - machine.rest[top[0]].x(),
+  const double moved = positions_by_id(bent.particles())[top[0]].x() - machine.rest[top[0]].x(),
                critical = pi * pi / 12 * to_the_side / moved * machine.rest.back().z();
   const double pressed = 1.5 * critical;
   machine.world.loads = {machine.pull(top, {0, 0, -pressed})};
