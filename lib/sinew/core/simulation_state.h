@@ -98,7 +98,7 @@ struct RelaxationState {
   double best = 0;              ///< the smallest of these that counted as progress, N
   std::int64_t best_at = 0;     ///< the iteration in which it was reached
   std::int64_t newton = 0;      ///< of these iterations, Newton's; -1: it led nowhere
-  std::int64_t negative = 0;    ///< pivots of the last factor
+  std::int64_t negative = 0;    ///< pivots at most, of the factors of the increment
   std::int64_t unstable = 0;    ///< equilibria found on that way from which the body would buckle
 };
 

@@ -125,7 +125,7 @@ double Relaxation::time() const {
 
 void Relaxation::count_solution(std::int64_t negative) {
   ++now_.newton;
-  now_.negative = negative;
+  now_.negative = std::max(now_.negative, negative);
 }
 
 bool Relaxation::is_stalled() const {

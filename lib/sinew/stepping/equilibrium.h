@@ -151,9 +151,11 @@ class Relaxation {
   /// Whether an increment that strained the body so is to be given up for a shorter one; `before`:
   /// particles that were inverted where it began.
   bool is_too_large(const IncrementStrain& found, std::size_t before) const;
-  /// Whether the present equilibrium is unstable, the one before was not, and a shorter increment
-  /// may tell better where that begins.
+  /// Whether the way to the present equilibrium met what is unstable, the one before was not, and a
+  /// shorter increment may tell better where that begins.
   bool has_become_unstable() const;
+  /// Takes the negative pivots of the equilibrium itself.
+  void found_at_rest(std::int64_t negative) { now_.negative = negative; }
   /// Where the increment began, to be tried by a shorter one, given what the longer one `found`.
   RelaxationState shorter(RelaxationState begun, double strain) const;
   /// The same after an increment that led to no stable equilibrium: half of it, or the whole by

@@ -129,12 +129,14 @@ bool LoadIncrements::predict(Stepper& stepper) {
 /// Newton's method has come to rest: by shorter increments where the body has become unstable,
 /// until these tell where; then it stays on its way, if that is short.
 void LoadIncrements::settle(Stepper& stepper) {
-  const bool is_unstable = relaxation_.state().negative > 0;
-  const double strain = is_unstable ? strain_.since(positions(stepper)).strain : 0;
-  if (relaxation_.has_become_unstable() || strain > max_strain_of_increment)
-    try_otherwise(stepper);
-  else if (!is_given_up(stepper, 1))
-    accept(stepper);
+  if (relaxation_.has_become_unstable()) return try_otherwise(stepper);
+  if (relaxation_.state().negative > 0) {
+    relaxation_.found_at_rest(newton_->negative_pivots(stepper, moment()));
+    if (relaxation_.state().negative > 0 &&
+        strain_.since(positions(stepper)).strain > max_strain_of_increment)
+      return try_otherwise(stepper);
+  }
+  if (!is_given_up(stepper, 1)) accept(stepper);
 }
 
 Relaxation::Outcome LoadIncrements::solve(Stepper& stepper) {

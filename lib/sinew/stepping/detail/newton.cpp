@@ -189,14 +189,18 @@ std::optional<Newton::Solution> Newton::correct(Stepper& stepper, const TimedPos
   return solve(matrix, tangent_.forces(stepper, now, gravity_), {max_correction, true});
 }
 
-/// By the sizes of the pivots: where the tangent is indefinite, a step down the energy all the
-/// same.
+/// Solves by the sizes of the pivots: where the tangent is indefinite, energy falls all the same.
 Tangent::Vector Newton::step_down(const Tangent::Vector& forces) const {
   Tangent::Vector by = factor_.permutationP() * forces;
   factor_.matrixL().solveInPlace(by);
   by = by.cwiseQuotient(factor_.vectorD().cwiseAbs());
   factor_.matrixU().solveInPlace(by);
   return factor_.permutationPinv() * by;
+}
+
+std::int64_t Newton::negative_pivots(Stepper& stepper, const TimedPose& now) {
+  factor_.factorize(tangent_.at(stepper, now, read(stepper, now)));
+  return (factor_.vectorD().array() < 0).count();
 }
 
 std::optional<Newton::Solution> Newton::solve(const Tangent::Matrix& matrix,

@@ -40,7 +40,9 @@ class Newton {
                                   double part);
   /// Where it comes to by the forces that nothing answers at the moment.
   std::optional<Solution> correct(Stepper& stepper, const TimedPose& now);
-  /// Where the particles were before either, in the order of the stepper.
+  /// How many directions there are in which the body, as it is, would leave an equilibrium.
+  std::int64_t negative_pivots(Stepper& stepper, const TimedPose& now);
+  /// Where the particles were before these, in the order of the stepper.
   const Points& positions() const { return positions_; }
 
  private:
