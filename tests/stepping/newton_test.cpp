@@ -120,10 +120,6 @@ TEST(Newton, TellsTheLoadUnderWhichAColumnBuckles) {
   const auto [before, after] = *column.relaxation()->buckled();
   EXPECT_NEAR(pressed * (before + after) / 2, critical, 0.05 * critical);
   EXPECT_LT(after - before, 0.1 / 15);
-  const Points end = positions_by_id(column.particles());
-  EXPECT_LT(std::hypot(end[top[0]].x() - machine.rest[top[0]].x(),
-                       end[top[0]].y() - machine.rest[top[0]].y()),
-            0.01 * r);
 }
 
 TEST(Newton, GoesOnWithTheSameBitsWhereverItIsResumed) {
