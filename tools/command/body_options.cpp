@@ -19,7 +19,8 @@ bool is_wanted(const Row& row, BodyFlags::Kind kind) {
   if (row.section == "body" && kind == BodyFlags::Kind::mesh)
     return std::find(of_mesh.begin(), of_mesh.end(), row.name) != of_mesh.end();
   if (kind == BodyFlags::Kind::mesh) return false;
-  return (row.section == "body" && row.name != "mesh") ||
+  const bool moves = row.name == "velocity" || row.name == "angular_velocity";
+  return (row.section == "body" && row.name != "mesh" && !moves) ||
          (row.section == "material" && row.name == "density");
 }
 
