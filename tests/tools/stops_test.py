@@ -301,7 +301,7 @@ class Stops(SmallRun):
         there.mkdir()
         for command in (["simulate", self.scene, *fine, "-o", self.folder / "a/b"], ["run", self.scene, *fine, "-o", there],
                         ["converge", self.scene, "--radii", "0.0015,0.001", "-o", self.folder / "study"],
-                        ["check", self.scene, *fine], ["fill", self.scene, *fine, "-o", self.folder / "body.vtu"]):
+                        ["check", self.scene, *fine], ["fill", self.scene, "--set", "body.radius=0.0007", "-o", self.folder / "body.vtu"]):
             for name in (signal.SIGINT, signal.SIGTERM):
                 for moment in (0.1, 0.4, 0.9):
                     with subprocess.Popen([BIN / "sinew", *map(str, command)], stderr=subprocess.PIPE, text=True) as child:
