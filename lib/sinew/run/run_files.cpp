@@ -434,7 +434,11 @@ std::vector<std::int32_t> layers_of_part(const RunFiles& run) {
 /// all particles are in the frames.
 std::optional<FineSkin> fine_skin(const RunFiles& run) {
   const double r = run.material.pair.r;
-  if (!run.ids.empty() || longest_side(run.surface) <= longest_measured_side * r) return {};
+  const double side = longest_measured_side * r, faces = area(run.surface) / (side * side);
+  if (!run.ids.empty() || longest_side(run.surface) <= side) return {};
+  // A skin that is not around the particles is damaged: whoever measures it says so.
+  constexpr double max_faces_per_particle = 10;
+  if (!(faces < max_faces_per_particle * static_cast<double>(run.body.particles.size()))) return {};
   FineSkin fine{refined(run.surface, longest_measured_side * r), {}};
   const auto made = [&run, r, points = fine.rest.points] {  // where it is asked for
     Binding binding{{0}, {}, {}};
