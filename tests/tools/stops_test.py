@@ -296,12 +296,12 @@ class Stops(SmallRun):
 
     def test_a_signal_while_it_prepares_leaves_nothing(self):
         """A body whose filling takes longer than any of these moments; elsewhere a folder that was there."""
-        fine = ["--set", "body.radius=0.0015"]
+        fine = ["--set", "body.radius=0.0007"]
         there = self.folder / "there"
         there.mkdir()
         for command in (["simulate", self.scene, *fine, "-o", self.folder / "a/b"], ["run", self.scene, *fine, "-o", there],
-                        ["converge", self.scene, "--radii", "0.0015,0.001", "-o", self.folder / "study"],
-                        ["check", self.scene, *fine], ["fill", self.scene, "--set", "body.radius=0.0007", "-o", self.folder / "body.vtu"]):
+                        ["converge", self.scene, "--radii", "0.0007,0.0006", "-o", self.folder / "study"],
+                        ["check", self.scene, *fine], ["fill", self.scene, *fine, "-o", self.folder / "body.vtu"]):
             for name in (signal.SIGINT, signal.SIGTERM):
                 for moment in (0.1, 0.4, 0.9):
                     with subprocess.Popen([BIN / "sinew", *map(str, command)], stderr=subprocess.PIPE, text=True) as child:
