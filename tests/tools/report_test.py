@@ -101,7 +101,7 @@ DATA = re.compile(r'(?<=id="data">).*?(?=</script>)', re.DOTALL)
 def browse(page, *options):
     with tempfile.TemporaryDirectory() as profile:
         return subprocess.run(BROWSER + [f"--user-data-dir={profile}", *options, page.as_uri()],
-                              capture_output=True, text=True, timeout=100)
+                              capture_output=True, text=True, timeout=400)
 
 
 def console_errors(talk):
