@@ -33,7 +33,7 @@ void expect_listed(const std::string& series, const Dataset& data) {
     const auto in = [name](auto names) {
       return std::find(names.begin(), names.end(), name) != names.end();
     };
-    return in(measured_arrays()) || in(stepped_arrays());
+    return in(measured_arrays()) || in(stepped_arrays()) || in(contact_arrays());
   };
   const auto listed = std::count_if(rows.begin(), rows.end(), [&](const WrittenArray& row) {
     return row.series == series && row.name != "Points" && !on_request(row.name);
