@@ -164,6 +164,33 @@ TEST(InsideRuns, UniteOverlappingPartsIntoOneBody) {
   EXPECT_EQ(count_of(inside.runs), expected);
 }
 
+/// Sites on a face that two boxes share are inside of one of them.
+TEST(InsideRuns, OfTouchingBoxesAreThoseOfTheBlockAndTellThemApart) {
+  PolygonSoup boxes;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 low(i % 2, i / 2 % 2, i / 4);
+    boxes = shapes::together(boxes, shapes::box(low, low + Vec3::Ones()));
+  }
+  const Surface apart = clean(boxes), block = clean(shapes::box({0, 0, 0}, {2, 2, 2}));
+  for (const Packing packing : {Packing::fcc, Packing::hcp}) {
+    const Lattice lattice = lattice_about(block, packing, 0.06, Vec3(1, 1, 1));
+    const InsideRuns inside = inside_runs(lattice, apart), whole = inside_runs(lattice, block);
+    EXPECT_EQ(count_of(inside.runs), count_of(whole.runs));
+    EXPECT_EQ(inside.on_surface, whole.on_surface);
+    EXPECT_EQ(inside.deepest, 1);
+    EXPECT_EQ(inside.bodies, 8);
+    EXPECT_EQ(inside.block_of, std::vector<int>(8, 0));
+    for (const auto& run : inside.runs)
+      for (int n = run.first; n < run.last; ++n) {
+        const Vec3 site = lattice.site(lattice.rows[run.row], n);
+        const Vec3 low(run.body % 2, run.body / 2 % 2, run.body / 4);
+        ASSERT_LE(low.maxCoeff(), 1);
+        ASSERT_GE((site - low).minCoeff(), 0);
+        ASSERT_LE((site - low).maxCoeff(), 1);
+      }
+  }
+}
+
 /// Two boxes whose facing sides have long slits: between them places are far from the slits'
 /// corners and close to their edges.
 TEST(InsideRuns, FollowTheWindingNumberBesideLongSlits) {

@@ -96,12 +96,15 @@ TEST(Border, CapsOfAHalfSphereGiveHalfItsVolume) {
 }
 
 TEST(Border, OfAnInnerWallIsClosedByItsOwnCap) {
-  // Two boxes that have a wall in common: the wall itself stays once.
-  const auto soup =
+  // Two boxes that have a wall in common, which only one of them has as a face.
+  auto soup =
       together(shapes::box(Vec3::Zero(), Vec3::Ones()), shapes::box(Vec3(1, 0, 0), Vec3(2, 1, 1)));
+  std::erase_if(soup.polygons, [&](const std::vector<int>& face) {
+    return face[0] >= 8 && std::all_of(face.begin(), face.end(),
+                                       [&](int point) { return soup.points[point].x() == 1; });
+  });
   for (const auto& given : {soup, shapes::inverted(soup)}) {
     const Surface surface = clean(given);
-    EXPECT_EQ(surface.cleaning.faces_doubled + surface.cleaning.points_merged, 2u + 4);
     EXPECT_EQ(surface.border.crowded_edges, 4u);
     EXPECT_EQ(surface.border.holes, 1u);
     EXPECT_EQ(surface.border.edges, 4u);

@@ -23,7 +23,7 @@ std::size_t count_of(std::int64_t n) { return static_cast<std::size_t>(n); }
 void add_cleaning(std::vector<ReportRow>& rows, const CleaningCounts& counts) {
   for (const NamedCount& one : cleaning_counts())
     if (one.of == NamedCount::Of::file || counts.*one.count > 0)
-      rows.push_back({std::string(one.name), counts.*one.count});
+      rows.push_back({std::string(one.name), counts.*one.count, std::string(one.unit)});
 }
 
 void add_defects(std::vector<ReportRow>& rows, const FillReport& report) {

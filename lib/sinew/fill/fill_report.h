@@ -20,6 +20,7 @@ namespace sinew {
 struct BodyReport {
   double volume = 0;  ///< enclosed by its surface, m^3; 0 where the surface is open
   std::size_t particles = 0;
+  int block = 0;  ///< the first of the bodies that it shares faces with
 };
 
 /// Every site of the lattice checked against CGAL.

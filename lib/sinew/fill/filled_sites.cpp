@@ -44,6 +44,7 @@ BodySpace::BodySpace(const Surface& given, const PackOptions& options)
     : placement(given.triangles.points, options.lattice_axes), surface(given) {
   surface.triangles = placement.to_lattice(given.triangles);
   surface.caps = placement.to_lattice(given.caps);
+  surface.walls.triangles = placement.to_lattice(given.walls.triangles);
   box = bounds(surface.triangles.points);
   if (options.lattice_origin) lattice_origin = placement.to_lattice(*options.lattice_origin);
   const Vec3 margin = Vec3::Constant(options.thickness.value_or(0) / 2);

@@ -40,6 +40,9 @@ std::vector<RowSite> spread_sites(const Lattice& lattice) {
 
 InsideRuns inside_runs(const Lattice& lattice, const Surface& surface) {
   RowCrossings crossings = row_crossings(lattice, surface.triangles);
+  if (surface.closed() && !surface.walls.component.empty())
+    add_crossings(row_crossings(lattice, surface.walls.triangles),
+                  static_cast<int>(surface.triangles.faces.size()), crossings);
   const std::size_t rows = lattice.rows.size();
   const auto found = surface.closed() ? all_rows(rows, ClosedSweep(lattice, surface, crossings))
                                       : all_rows(rows, OpenSweep(lattice, surface, crossings));

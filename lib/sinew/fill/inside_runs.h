@@ -22,6 +22,7 @@ struct InsideRuns {
   /// site are one body. Empty for open surfaces, where all runs are of body 0.
   std::vector<int> body_of;
   int bodies = 0;
+  std::vector<int> block_of;  ///< per body: the first of those that it shares walls with
 };
 
 /// The same for any number of threads.

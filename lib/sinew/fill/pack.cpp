@@ -89,6 +89,8 @@ void report_sites(const FilledSites& filled, const BodySpace& space, FillReport&
   report.shallowest = filled.inside.shallowest;
   report.layer = filled.inside.runs.empty();
   report.bodies.resize(filled.inside.bodies);
+  for (int body = 0; body < filled.inside.bodies; ++body)
+    report.bodies[body].block = filled.inside.block_of[body];
   const std::vector<double> volumes = component_volumes(space.surface);
   for (std::size_t i = 0; i < filled.inside.body_of.size(); ++i) {
     const int body = filled.inside.body_of[i];

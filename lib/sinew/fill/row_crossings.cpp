@@ -295,4 +295,21 @@ RowCrossings row_crossings(const Lattice& lattice, const Triangles& surface) {
   return rows;
 }
 
+void add_crossings(const RowCrossings& others, int first_face, RowCrossings& all) {
+  RowCrossings sum{{0}, {}, std::move(all.on_surface)};
+  for (std::size_t row = 0; row + 1 < all.first.size(); ++row) {
+    const auto ours = all.of(row), theirs = others.of(row);
+    const auto begin = static_cast<std::ptrdiff_t>(sum.crossings.size());
+    sum.crossings.insert(sum.crossings.end(), ours.begin(), ours.end());
+    for (const Crossing& one : theirs)
+      sum.crossings.push_back({one.site, first_face + one.face, one.winding});
+    std::inplace_merge(sum.crossings.begin() + begin,
+                       sum.crossings.begin() + begin + static_cast<std::ptrdiff_t>(ours.size()),
+                       sum.crossings.end(),
+                       [](const Crossing& a, const Crossing& b) { return a.site < b.site; });
+    sum.first.push_back(sum.crossings.size());
+  }
+  all = std::move(sum);
+}
+
 }  // namespace sinew

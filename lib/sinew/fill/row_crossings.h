@@ -146,4 +146,7 @@ struct RowCrossings {
 /// Accepts any triangles. The same for any number of threads.
 RowCrossings row_crossings(const Lattice& lattice, const Triangles& surface);
 
+/// Adds those of other faces, which are numbered from `first_face` on. Sites on these do not count.
+void add_crossings(const RowCrossings& others, int first_face, RowCrossings& all);
+
 }  // namespace sinew

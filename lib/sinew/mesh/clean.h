@@ -21,13 +21,14 @@ struct CleaningOptions {
 
 /// In this order: cuts polygons into triangles, merges points (the first of them is kept, so a mesh
 /// without defects keeps its points in file order), drops collapsed faces, merges doubled ones in
-/// either orientation, makes orientations agree across edges of two faces, following most of the
-/// area, and turns bodies outward by the sign of the volume they enclose once their holes are
-/// capped. Pieces too flat to decide follow the others. A shell inside another one is a cavity
-/// where its orientation in the file is opposite; with the rule `hollow` every second shell is one.
-/// Shells that cut each other are separate bodies. Holes, crowded edges and self-intersections are
-/// counted, never refused. Throws Error (bad input), naming the decisive number and a cure, where
-/// no face is left or coordinates are too large for volumes to be computed.
+/// either orientation, leaves out both of two opposite ones where solids touch, makes orientations
+/// agree across edges of two faces, following most of the area, and turns bodies outward by the
+/// sign of the volume they enclose once their holes are capped. Pieces too flat to decide follow
+/// the others. A shell inside another one is a cavity where its orientation in the file is
+/// opposite; with the rule `hollow` every second shell is one. Shells that cut each other are
+/// separate bodies. Holes, crowded edges and self-intersections are counted, never refused. Throws
+/// Error (bad input), naming the decisive number and a cure, where no face is left or coordinates
+/// are too large for volumes to be computed.
 Surface clean(const PolygonSoup& soup, const CleaningOptions& options = {});
 
 }  // namespace sinew

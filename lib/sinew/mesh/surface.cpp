@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/mesh/surface.h>
 
+#include <sinew/mesh/solids.h>
+
 namespace sinew {
 
 namespace {
@@ -31,16 +33,13 @@ Triangles caps_of(std::span<const Loop> loops, const Points& points) {
 
 namespace {
 
-void append(Triangles& all, const Triangles& more) {
-  const int first = static_cast<int>(all.points.size());
-  all.points.insert(all.points.end(), more.points.begin(), more.points.end());
-  for (const auto& [a, b, c] : more.faces) all.faces.push_back({first + a, first + b, first + c});
-}
-
 void append(Surface& all, const Surface& part) {
   all.first_face.push_back(all.triangles.faces.size());
-  append(all.triangles, part.triangles);
-  append(all.caps, part.caps);
+  append(part.triangles, all.triangles);
+  append(part.caps, all.caps);
+  append(part.walls.triangles, all.walls.triangles);
+  for (const auto& [behind, before] : part.walls.component)
+    all.walls.component.push_back({all.components + behind, all.components + before});
   all.turned.insert(all.turned.end(), part.turned.begin(), part.turned.end());
   for (const int component : part.component) all.component.push_back(all.components + component);
   all.components += part.components;
@@ -65,12 +64,17 @@ Surface joined(std::vector<Surface> parts) {
 
 std::vector<double> component_volumes(const Surface& surface) {
   std::vector<double> sums(surface.components);
-  const Points& points = surface.triangles.points;
-  const Vec3 middle = bounds(points).center();  // preserves precision far from the origin
-  for (std::size_t i = 0; i < surface.triangles.faces.size(); ++i) {
-    const auto& [a, b, c] = surface.triangles.faces[i];
-    const Vec3 p = points[a] - middle, q = points[b] - middle, r = points[c] - middle;
-    sums[surface.component[i]] += p.dot(q.cross(r)) / 6;
+  const Vec3 middle =
+      bounds(surface.triangles.points).center();  // preserves precision far from the origin
+  for (std::size_t i = 0; i < surface.triangles.faces.size(); ++i)
+    sums[surface.component[i]] +=
+        volume_below(surface.triangles, surface.triangles.faces[i], middle);
+  for (std::size_t i = 0; i < surface.walls.component.size(); ++i) {
+    const Triangles& walls = surface.walls.triangles;
+    const double below = volume_below(walls, walls.faces[i], middle);
+    const auto& [behind, before] = surface.walls.component[i];
+    sums[behind] += below;
+    sums[before] -= below;
   }
   return sums;
 }
@@ -86,6 +90,7 @@ std::span<const NamedCount> cleaning_counts() {
       {"points_unused", &C::points_unused, Of::cleaning},
       {"faces_collapsed", &C::faces_collapsed, Of::cleaning},
       {"faces_doubled", &C::faces_doubled, Of::cleaning},
+      {"faces_shared", &C::faces_shared, Of::cleaning, "pairs, as solids share faces"},
       {"faces_flat", &C::faces_flat, Of::cleaning},
       {"faces_turned", &C::faces_turned, Of::cleaning},
       {"edges_twisted", &C::edges_twisted, Of::cleaning},

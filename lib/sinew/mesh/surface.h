@@ -6,6 +6,7 @@
 //     const std::vector<double> volumes = component_volumes(surface);
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -36,6 +37,7 @@ struct CleaningCounts {
   std::size_t points_unused = 0;    ///< points of no face, left out
   std::size_t faces_collapsed = 0;  ///< faces left out because two of their corners are one point
   std::size_t faces_doubled = 0;    ///< faces left out because an earlier one has the same corners
+  std::size_t faces_shared = 0;     ///< pairs of opposite faces between touching solids, left out
   std::size_t faces_flat = 0;       ///< faces without area, kept: they may close the surface
   std::size_t faces_turned = 0;     ///< faces whose direction was reversed
   std::size_t holes_closed = 0;     ///< by faces_added new faces, where that was asked for
@@ -51,10 +53,17 @@ struct NamedCount {
   std::string_view name;
   std::size_t CleaningCounts::*count;
   Of of;
+  std::string_view unit = "";
 };
 
 /// All counts, in the order of reports.
 std::span<const NamedCount> cleaning_counts();
+
+/// The faces that touching solids share, once each, on points of their own. They bound nothing.
+struct Walls {
+  Triangles triangles;
+  std::vector<std::array<int, 2>> component;  ///< per face: behind it, before it
+};
 
 /// The faces of a body point outward (counter-clockwise seen from outside), those of a cavity into
 /// the cavity. Faces may intersect, and bodies overlap.
@@ -62,7 +71,8 @@ struct Surface {
   Triangles triangles;
   std::vector<bool> turned;    ///< per face: whether it is reversed with respect to the file
   std::vector<int> component;  ///< per face: faces joined by edges, numbered by their first face
-  int components = 0;
+  int components = 0;          ///< count; walls part them
+  Walls walls;
   /// Faces that close every hole, with points of their own, so that triangles and caps together
   /// have no border. They serve to compute winding numbers and bound nothing.
   Triangles caps;
@@ -78,8 +88,8 @@ struct Surface {
 /// Several meshes as one, in their order, with the sums of their counts.
 Surface joined(std::vector<Surface> parts);
 
-/// The volume that each component encloses, m^3; negative for cavities. For open surfaces it does
-/// not include the volume behind their caps.
+/// The volume that each component and its walls enclose, m^3; negative for cavities. For open
+/// surfaces it does not include the volume behind their caps.
 std::vector<double> component_volumes(const Surface& surface);
 
 // Area and volume of single faces.

@@ -25,6 +25,12 @@ void number_bodies(const std::vector<SweptRows>& found, const Surface& surface,
     inside.body_of[i] = first;
   }
   for (Run& run : inside.runs) run.body = inside.body_of[run.body];
+
+  UnionFind blocks(inside.bodies);
+  for (const auto& [behind, before] : surface.walls.component)
+    if (inside.body_of[behind] >= 0 && inside.body_of[before] >= 0)
+      blocks.join(inside.body_of[behind], inside.body_of[before]);
+  for (int body = 0; body < inside.bodies; ++body) inside.block_of.push_back(blocks.first_of(body));
 }
 
 namespace {
@@ -45,15 +51,17 @@ int only_one(const Depths& depths) {
 /// Follows a row and finds owners of cavities that have none yet. False where it found none.
 bool learn(std::span<const Crossing> row, const Surface& surface, std::vector<int>& owner) {
   Depths depths;
-  bool learnt = false;
+  bool learnt = false, lost = false;
   for (const Crossing& one : row) {
-    const int component = surface.component[one.face];
-    if (owner[component] == unknown && one.winding < 0) {
-      owner[component] = only_one(depths);
-      learnt = learnt || owner[component] != unknown;
-    }
-    if (owner[component] == unknown) return learnt;
-    depths.cross(owner[component], one.winding);
+    for_each_component(surface, one, [&](int component, int winding) {
+      if (owner[component] == unknown && winding < 0) {
+        owner[component] = only_one(depths);
+        learnt = learnt || owner[component] != unknown;
+      }
+      lost = lost || owner[component] == unknown;
+      if (!lost) depths.cross(owner[component], winding);
+    });
+    if (lost) return learnt;
   }
   return learnt;
 }
@@ -110,8 +118,11 @@ void ClosedSweep::add_row(std::size_t row, SweptRows& found) const {
   for (const Crossing& one : crossings_.of(row)) {
     take(runs, from, one.site, sum, depths, found);
     from = one.site;
-    sum += one.winding;
-    if (!owner_.empty()) depths.cross(owner_[surface_.component[one.face]], one.winding);
+    if (one.face < static_cast<int>(surface_.triangles.faces.size())) sum += one.winding;
+    if (!owner_.empty())
+      for_each_component(surface_, one, [&](int component, int winding) {
+        depths.cross(owner_[component], winding);
+      });
   }
   take(runs, from, lattice_.rows[row].sites, sum, depths, found);
   drop_repeated(found.overlaps);

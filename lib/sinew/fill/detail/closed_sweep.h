@@ -65,12 +65,24 @@ class Depths {
   std::vector<std::array<int, 2>> depths_;  ///< component and winding number, not 0
 };
 
+/// Calls visit(component, winding) for the component that a row leaves at a crossing, and for the
+/// one that it enters: both at a wall, whose number follows those of the faces.
+template <class Visit>
+void for_each_component(const Surface& surface, const Crossing& one, Visit&& visit) {
+  const auto faces = static_cast<int>(surface.triangles.faces.size());
+  if (one.face < faces) return visit(surface.component[one.face], one.winding);
+  const auto& [behind, before] = surface.walls.component[one.face - faces];
+  visit(one.winding > 0 ? before : behind, -1);
+  visit(one.winding > 0 ? behind : before, 1);
+}
+
 /// Per component: itself, or for a cavity the component whose body it is in.
 std::vector<int> owners_of(const Surface& surface, const RowCrossings& crossings);
 
 class ClosedSweep {
  public:
-  /// All arguments must outlive this. `crossings` are those of the surface.
+  /// All arguments must outlive this. `crossings` are those of the surface, and of
+  /// its walls.
   ClosedSweep(const Lattice& lattice, const Surface& surface, const RowCrossings& crossings);
 
   /// Adds the row's sites inside, in runs of the first component around them.

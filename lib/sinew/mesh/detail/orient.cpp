@@ -125,27 +125,19 @@ void for_each_contained(std::span<const Box> boxes, Visit&& visit) {
   }
 }
 
-Points samples_of(const Shell& shell) {
-  Points samples;
-  const std::size_t count = std::min(shell.faces.size(), max_samples);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Corners& face = shell.faces[i * shell.faces.size() / count];
-    samples.push_back((face[0] + face[1] + face[2]) / 3);
-  }
-  return samples;
-}
+}  // namespace
 
-bool encloses(const Winding& outer, const Points& samples) {
+bool encloses(const Winding& outer, std::span<const Corners> faces) {
   bool within = false;
-  for (const Vec3& sample : samples) {
-    const std::optional<int> winding = outer.around(sample);
+  const std::size_t count = std::min(faces.size(), max_samples);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Corners& face = faces[i * faces.size() / count];
+    const std::optional<int> winding = outer.around((face[0] + face[1] + face[2]) / 3);
     if (winding && *winding <= 0) return false;
     within = within || winding;
   }
   return within;
 }
-
-}  // namespace
 
 std::vector<int> next_outer(std::span<const Box> boxes, const std::function<Shell(int)>& shell_of) {
   std::vector<std::optional<Winding>> winding(boxes.size());
@@ -159,9 +151,9 @@ std::vector<int> next_outer(std::span<const Box> boxes, const std::function<Shel
   };
   std::vector<int> outer(boxes.size(), -1);
   for_each_contained(boxes, [&](int i, const std::vector<int>& around) {
-    const Points samples = samples_of(shell_of(i));
+    const Shell inner = shell_of(i);
     const auto found = std::find_if(around.begin(), around.end(), [&](int candidate) {
-      return encloses(winding_of(candidate), samples);
+      return encloses(winding_of(candidate), inner.faces);
     });
     if (found != around.end()) outer[i] = *found;
   });

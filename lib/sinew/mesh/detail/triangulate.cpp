@@ -261,9 +261,16 @@ Face sorted(Face face) {
   return face;
 }
 
-/// 4. Keeps the first of faces with the same corners.
-void drop_doubled(std::vector<Face>& faces, CleaningCounts& counts) {
+/// Whether the corners are in ascending order, when counted from the lowest one.
+bool ascends(const Face& face) {
+  const auto lowest = std::min_element(face.begin(), face.end()) - face.begin();
+  return face[(lowest + 1) % 3] < face[(lowest + 2) % 3];
+}
+
+/// 4. Keeps the first of faces with the same corners. Returns which have had opposite ones.
+std::vector<bool> drop_doubled(std::vector<Face>& faces, CleaningCounts& counts) {
   FirstOf first_of(faces.size());
+  std::vector<bool> opposed;
   int kept = 0;
   for (const Face& face : faces) {
     const Face corners = sorted(face);
@@ -271,14 +278,21 @@ void drop_doubled(std::vector<Face>& faces, CleaningCounts& counts) {
     for (const int corner : corners) hash = mixed(hash, static_cast<std::uint64_t>(corner));
     const int first = first_of.find_or_add(
         hash, kept, [&](int other) { return sorted(faces[other]) == corners; });
-    if (first == kept) faces[kept++] = face;
+    if (first == kept) {
+      faces[kept++] = face;
+      opposed.push_back(false);
+    } else if (ascends(face) != ascends(faces[first])) {
+      opposed[first] = true;
+    }
   }
   counts.faces_doubled = faces.size() - kept;
   faces.resize(kept);
+  return opposed;
 }
 
-/// 5. Drops points without faces; the others keep their order.
-Triangles used(const Points& points, std::vector<Face> faces, CleaningCounts& counts) {
+}  // namespace
+
+Triangles used(const Points& points, std::vector<Face> faces) {
   std::vector<int> place(points.size(), -1);
   for (const Face& face : faces)
     for (const int corner : face) place[corner] = 0;
@@ -288,23 +302,20 @@ Triangles used(const Points& points, std::vector<Face> faces, CleaningCounts& co
     place[i] = static_cast<int>(triangles.points.size());
     triangles.points.push_back(points[i]);
   }
-  counts.points_unused = points.size() - counts.points_merged - triangles.points.size();
   for (Face& face : faces)
     for (int& corner : face) corner = place[corner];
   triangles.faces = std::move(faces);
   return triangles;
 }
 
-}  // namespace
-
-Triangles merged_triangles(const PolygonSoup& soup, double weld, CleaningCounts& counts) {
+DistinctFaces distinct_faces(const PolygonSoup& soup, double weld, CleaningCounts& counts) {
   counts.points_read = soup.points.size();
   counts.polygons_read = soup.polygons.size();
   std::vector<Face> faces = cut(soup, counts);
   merge_points(faces, soup.points, weld, counts);
   drop_collapsed(faces, counts);
-  drop_doubled(faces, counts);
-  return used(soup.points, std::move(faces), counts);
+  std::vector<bool> opposed = drop_doubled(faces, counts);
+  return {{soup.points, std::move(faces)}, std::move(opposed)};
 }
 
 }  // namespace sinew

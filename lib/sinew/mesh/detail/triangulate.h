@@ -66,8 +66,17 @@ std::vector<std::array<int, 3>> triangulate(const std::vector<int>& polygon, con
 /// farther than that, however long a chain of close points is.
 std::vector<int> first_within(const Points& points, double distance);
 
-/// The first half of clean(): triangles on distinct points, none collapsed or doubled. Points
-/// closer than `weld` (m) are merged. Counts into `counts`.
-Triangles merged_triangles(const PolygonSoup& soup, double weld, CleaningCounts& counts);
+/// Triangles that differ in their corners, none collapsed.
+struct DistinctFaces {
+  Triangles triangles;        ///< on all points of the soup, of which merged ones have no faces
+  std::vector<bool> opposed;  ///< per face: others had the same corners in opposite direction
+};
+
+/// The first half of clean(). Points closer than `weld` (m) are merged; of faces with the same
+/// corners the first is kept. Counts into `counts`.
+DistinctFaces distinct_faces(const PolygonSoup& soup, double weld, CleaningCounts& counts);
+
+/// The triangles without points that have no faces; the others keep their order.
+Triangles used(const Points& points, std::vector<std::array<int, 3>> faces);
 
 }  // namespace sinew

@@ -91,8 +91,11 @@ void Honeycomb::find_inside(const BodySpace& space, const PackOptions& options) 
   }
   InsideRuns inside = inside_runs(lattice_, space.surface);
   for (const Run& run : inside.runs)
-    for (int n = run.first; n < run.last; ++n) body_[first_[run.row] + n] = run.body;
+    for (int n = run.first; n < run.last; ++n)
+      body_[first_[run.row] + n] = inside.bodies > 0 ? inside.block_of[run.body] : run.body;
   body_of_ = std::move(inside.body_of);
+  for (int& body : body_of_)
+    if (body >= 0) body = inside.block_of[body];
   bodies_ = std::max(1, inside.bodies);
 }
 
