@@ -94,6 +94,29 @@ TEST(Curve, FindsItsKeysAmongManyEvenAndUneven) {
     }
 }
 
+TEST(Curve, OfStepsJumpsAtItsKeysHoweverTheirTimesAreRounded) {
+  Curve<double> steps{Interpolation::step, {}, {}, {}, {}, false};
+  RotationCurve turns{Interpolation::step, {}, {}, {}, {}, {}, false};
+  for (int k = 0; k <= 2400; ++k) {
+    steps.times.push_back(k / 24.0);
+    steps.values.push_back(k);
+    turns.values.push_back(rotation_by(Vec3(0, 0, k)));
+  }
+  turns.times = steps.times;
+  const double frame = 1 / 24.0, step = frame / 7;
+  for (int k = 0; k <= 2400; ++k)
+    for (const double time : {k / 24.0, k * frame, 7 * k * step, std::nextafter(k / 24.0, 0)}) {
+      EXPECT_EQ(steps.at(time).value, k);
+      EXPECT_LT(turns.at(time).value.angularDistance(turns.values[k]), 1e-6);
+      if (k > 0) EXPECT_EQ(steps.at(time - step).value, k - 1);
+    }
+  CurvePiece<double> kept = steps.piece_at(0);  // as long as it says that it is valid
+  for (int n = 0; n <= 7 * 2400; ++n) {
+    if (!kept.time.covers(n * step)) kept = steps.piece_at(n * step);
+    EXPECT_EQ(kept.at(n * step).value, n / 7);
+  }
+}
+
 TEST(Curve, RatesAreItsDerivative) {
   for (const auto kind :
        {Interpolation::step, Interpolation::linear, Interpolation::smooth, Interpolation::cubic}) {

@@ -52,6 +52,26 @@ std::optional<Hold> hold_at(const std::vector<double>& times, double time) {
   return std::nullopt;
 }
 
+/// Relative error of times that are sums and multiples of steps, enlarged: a key that is reached
+/// but for it counts as reached, or the jump of a step would come a frame late.
+constexpr double rounding_of_times = 1e-12;
+
+/// The time that decides between keys at a moment, s.
+template <class AnyCurve>
+double time_on(const AnyCurve& curve, double moment) {
+  return curve.interpolation == Interpolation::step ? moment + rounding_of_times * std::abs(moment)
+                                                    : moment;
+}
+
+/// When a piece between such times is valid.
+template <class AnyCurve>
+PieceTime valid_on(const AnyCurve& curve, PieceTime piece) {
+  if (curve.interpolation != Interpolation::step) return piece;
+  for (double* end : {&piece.begin, &piece.end})
+    if (std::isfinite(*end)) *end -= rounding_of_times * std::abs(*end);
+  return piece;
+}
+
 /// Progress from one key to the next, 0 to 1, as a polynomial without a constant; not for cubic.
 std::array<double, 3> progress_of(Interpolation interpolation) {
   if (interpolation == Interpolation::step) return {0, 0, 0};
@@ -173,11 +193,13 @@ void put_tangents(const RotationCurve& curve, const Span& span, RotationPiece& p
 }  // namespace
 
 template <class Value>
-CurvePiece<Value> Curve<Value>::piece_at(double time) const {
+CurvePiece<Value> Curve<Value>::piece_at(double moment) const {
   const Value zero = zero_of<Value>();
+  const double time = time_on(*this, moment);
   if (const auto hold = hold_at(times, time))
-    return {hold->time, {values[hold->key], zero, zero, zero}};
-  const Span span = span_at(times, time);
+    return {valid_on(*this, hold->time), {values[hold->key], zero, zero, zero}};
+  Span span = span_at(times, time);
+  span.time = valid_on(*this, span.time);
   if (interpolation == Interpolation::cubic) return {span.time, cubic(*this, span)};
   const auto [linear, square, cube] = progress_of(interpolation);
   const Value &from = values[span.key], difference = values[span.key + 1] - from;
@@ -187,15 +209,16 @@ CurvePiece<Value> Curve<Value>::piece_at(double time) const {
 template struct Curve<double>;
 template struct Curve<Vec3>;
 
-RotationPiece RotationCurve::piece_at(double time) const {
+RotationPiece RotationCurve::piece_at(double moment) const {
   RotationPiece piece;
+  const double time = time_on(*this, moment);
   if (const auto hold = hold_at(times, time)) {
-    piece.time = hold->time;
+    piece.time = valid_on(*this, hold->time);
     piece.c = {values[hold->key].coeffs(), Vec4::Zero()};
     return piece;
   }
   const Span span = span_at(times, time);
-  piece.time = span.time;
+  piece.time = valid_on(*this, span.time);
   if (interpolation != Interpolation::cubic) {
     piece.progress = progress_of(interpolation);
     piece.c = {values[span.key].coeffs(), as_4(turn_to(*this, span.key + 1))};

@@ -3,13 +3,13 @@
 //
 //     const CurveSample<double> twist = curve.at(time);  // twist.value, twist.rate
 //
-// step holds a key until the next; linear interpolates (slerp for rotations); smooth stops at every
-// key (smoothstep); cubic passes the keys with continuous speed: Hermite's polynomial. Tangents
-// that are not given follow from the adjacent keys (the parabola through three keys, as Catmull and
-// Rom's for equal intervals) and are zero at the first and the last key; in a cyclic curve the last
-// key is the first one again. Cubic rotations without tangents: Kim, Kim and Shin, "A general
-// construction scheme for unit quaternion curves" (SIGGRAPH 1995), with angular velocities at the
-// keys. With tangents: glTF 2.0, appendix C.
+// step holds a key until the next (up to rounding of times); linear interpolates (slerp for
+// rotations); smooth stops at every key (smoothstep); cubic passes the keys with continuous speed:
+// Hermite's polynomial. Tangents that are not given follow from the adjacent keys (the parabola
+// through three keys, as Catmull and Rom's for equal intervals) and are zero at the first and the
+// last key; in a cyclic curve the last key is the first one again. Cubic rotations without
+// tangents: Kim, Kim and Shin, "A general construction scheme for unit quaternion curves" (SIGGRAPH
+// 1995), with angular velocities at the keys. With tangents: glTF 2.0, appendix C.
 //
 // Times are in seconds and ascend; a curve is constant before the first key and after the last. A
 // curve without keys must not be evaluated.
