@@ -116,6 +116,9 @@ void FrameData::begin_arrays(const OutputSettings& output, const FrameScene& sce
       throw error.with_context({key});
     }
   };
+  RequestedArrays named = requested_arrays(output.arrays);
+  keep_defined(named, "output.arrays");
+  arrays_.all = true;  // others are left out where the body lacks them
   keep_defined(arrays_, "output.arrays");
   keep_defined(on_skin_too_, "output.skin");
   if (!skin.usual.empty() && has_strain(measured_->rest()))
