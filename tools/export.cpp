@@ -179,6 +179,7 @@ Exit export_cells(const Options& options, const Common& common) {
   results.add("frames", done.frames);
   results.add("file", done.pvd.string());
   results.print(common);
+  if (done.warning) say(common, "sinew: warning: " + *done.warning);
   return Exit::done;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <sinew/core/particles.h>
+#include <sinew/fill/fill_warnings.h>
 #include <sinew/io/cells/cell_formats.h>
 #include <sinew/io/particle_formats/formats.h>
 #include <sinew/run/run_folder.h>
@@ -92,19 +93,25 @@ Settings settings_for(const Options& options, const Common& common) {
                                  : settings_for_mesh(options, common);
 }
 
-void print_cells(const VolumeCells& cells, std::size_t particles, double seconds,
-                 const Options& options, const Common& common) {
+void print_cells(const VolumeCells& cells, const FillReport& report, const Surface& surface,
+                 double seconds, const Options& options, const Common& common) {
   const CellQuality quality = quality_of(cells);
+  std::vector<std::string> warnings = report.warnings;
+  if (const auto lost = cell_warning(quality.volume, report.volume, surface))
+    warnings.push_back(*lost);
   Results results;
-  results.add("particles", particles);
+  results.add("particles", report.particles);
   results.add("tetrahedra", cells.cells.size());
   results.add("points", cells.points.size());
   results.add("volume", quality.volume, "m^3");
+  results.add("body_volume", report.volume, "m^3");
   results.add("smallest_angle", quality.angles.smallest, "degrees between two faces");
   results.add("largest_angle", quality.angles.largest, "degrees");
   results.add("seconds_cells", seconds, "s");
+  results.add("warnings", warnings);
   results.add("file", options.output);
   results.print(common);
+  for (const std::string& warning : warnings) say(common, "sinew: warning: " + warning);
 }
 
 Exit fill_with_cells(Options options, const Common& common) {
@@ -119,9 +126,7 @@ Exit fill_with_cells(Options options, const Common& common) {
   const VolumeCells cells = cells_of_body(settings, surface, rest, filling.particles.radius);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   write_cells(options.output, dataset_of(cells));
-  print_cells(cells, rest.size(), taken.count(), options, common);
-  for (const std::string& warning : filling.report.warnings)
-    say(common, "sinew: warning: " + warning);
+  print_cells(cells, filling.report, surface, taken.count(), options, common);
   return Exit::done;
 }
 

@@ -13,6 +13,7 @@
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/random.h>
+#include <sinew/fill/fill_warnings.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/repair/read_surface.h>
 #include <sinew/volume/volume_cells.h>
@@ -210,6 +211,39 @@ TEST(VolumeCells, KeepBodiesApart) {
     ASSERT_TRUE(left == 0 || left == 4);
   }
   EXPECT_NEAR(quality_of(body.cells).volume, 2, 0.01);
+}
+
+/// Solids that share a face are one body.
+TEST(VolumeCells, JoinSolidsThatShareFaces) {
+  const PolygonSoup pair =
+      shapes::together(shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 0, 0}, {2, 1, 1}));
+  const Filled one = filled(shapes::box({0, 0, 0}, {2, 1, 1}), of_radius(0.07)),
+               two = filled(pair, of_radius(0.07));
+  EXPECT_EQ(two.rest, one.rest);
+  EXPECT_EQ(two.cells.points, one.cells.points);
+  EXPECT_EQ(two.cells.cells, one.cells.cells);
+}
+
+/// Plates that no layer of the lattice is parallel to. Sites in the middle of thin ones keep cells.
+TEST(VolumeCells, OfThinPlatesKeepWhatTheParticlesHaveOfThem) {
+  struct Plate {
+    double radii, volume;  ///< thickness, and the least share of the volume
+  };
+  const Mat3 turn = Quat(0.9, 0.2, 0.3, 0.1).normalized().toRotationMatrix();
+  for (const auto& [radii, least] :
+       {Plate{4, 0.995}, {2.5, 0.99}, {2, 0.98}, {1.5, 0.93}, {1, 0.55}}) {
+    PolygonSoup plate = shapes::box(Vec3::Zero(), Vec3(1, 0.8, 0.03 * radii));
+    for (Vec3& point : plate.points) point = turn * point;
+    const Filled body = filled(plate, of_radius(0.03));
+    const CellQuality quality = quality_of(body.cells);
+    EXPECT_GT(quality.volume / volume(body.surface.triangles), least) << radii;
+    EXPECT_LT(quality.volume / volume(body.surface.triangles), 1.01) << radii;
+    EXPECT_GT(quality.smallest_volume, 0) << radii;
+    EXPECT_GT(quality.angles.smallest, 5) << radii;
+    for (const auto& [face, cells] : faces_of(body.cells)) ASSERT_LE(cells, 2) << radii;
+    const auto warning = cell_warning(quality.volume, volume(body.surface.triangles), body.surface);
+    EXPECT_EQ(warning.has_value(), radii < 2) << radii;
+  }
 }
 
 TEST(VolumeCells, OfAShellHaveItsThickness) {

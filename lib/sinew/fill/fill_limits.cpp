@@ -17,11 +17,13 @@ double radius_for_count(double volume, double count) {
   return std::cbrt(volume / count / volume_per_particle(1));
 }
 
-double volume_inside(const Surface& surface) {
-  if (surface.closed()) return volume(surface.triangles);
+Inside volume_inside(const Surface& surface) {
+  const double enclosed = surface.closed() ? volume(surface.triangles) : 0;
+  if (surface.closed() && surface.components == 1) return {enclosed, true};
   const Lattice lattice = coarse_lattice(bounds(surface.triangles.points));
   const InsideRuns inside = inside_runs(lattice, surface);
-  return static_cast<double>(count_of(inside.runs)) * volume_per_particle(lattice.radius);
+  if (surface.closed() && inside.deepest <= 1 && inside.shallowest >= 0) return {enclosed, true};
+  return {static_cast<double>(count_of(inside.runs)) * volume_per_particle(lattice.radius), false};
 }
 
 double ambiguous_fraction(const Surface& surface) {
@@ -102,7 +104,7 @@ double radius_that_fits(const BodySpace& space, const PackOptions& options, doub
   const double longest = space.box.sizes().maxCoeff();
   PackOptions tried = options;
   tried.count.reset();
-  const double about = volume_inside(space.surface);
+  const double about = volume_inside(space.surface).volume;
   double fits = std::min(radius / 2, about > 0 ? radius_for_count(about, enough) : longest / 4);
   for (; longest / fits < finest; fits /= 2)
     if (!fill_sites(space, tried, rounded_down(fits)).runs.empty()) return rounded_down(fits);
@@ -129,7 +131,7 @@ void refuse_out_of_place(const BodySpace& space, const PackOptions& options) {
 /// Estimate of the volume that will be filled, m^3.
 double volume_to_fill(const BodySpace& space, const PackOptions& options) {
   if (options.thickness) return area(space.surface.triangles) * *options.thickness;
-  return volume_inside(space.surface);
+  return volume_inside(space.surface).volume;
 }
 
 }  // namespace

@@ -13,9 +13,13 @@ namespace sinew {
 /// The radius (m) at which a volume (m^3) holds about `count` particles: (V / (4 sqrt(2) N))^(1/3).
 double radius_for_count(double volume, double count);
 
-/// The volume inside a surface, m^3: exact for closed, separate parts, else an estimate from a
-/// coarse filling.
-double volume_inside(const Surface& surface);
+struct Inside {
+  double volume;  ///< m^3
+  bool exact;     ///< enclosed by separate closed parts; else an estimate by a coarse filling
+};
+
+/// Where the winding number of a surface is above one half.
+Inside volume_inside(const Surface& surface);
 
 /// The fraction of points in a surface's box whose winding number differs by more than 0.1 from any
 /// integer: 0 for closed surfaces, near 1 where there is no inside.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
@@ -102,8 +103,10 @@ void warn_of_lost_bodies(const FillReport& report, Warnings& warnings) {
 
 void warn_of_groups(const FillReport& report, Warnings& warnings) {
   if (!report.closed || report.layer) return;
-  const auto filled = std::count_if(report.bodies.begin(), report.bodies.end(),
-                                    [](const BodyReport& body) { return body.particles > 0; });
+  std::set<int> blocks;
+  for (const BodyReport& body : report.bodies)
+    if (body.particles > 0) blocks.insert(body.block);
+  const auto filled = static_cast<int>(blocks.size());
   if (report.groups < filled)
     warnings.push_back(std::to_string(filled) + " separate bodies touch after filling and make " +
                        std::to_string(report.groups) +
@@ -116,6 +119,17 @@ void warn_of_groups(const FillReport& report, Warnings& warnings) {
 }
 
 }  // namespace
+
+std::optional<std::string> cell_warning(double cells, double volume, const Surface& surface) {
+  constexpr double thinnest_with_cells = 2;  // radii: from there on they hold 99 % of a plate
+  if (cells > (1 - 2 * much_lost) * volume) return std::nullopt;
+  const auto thinnest = thinnest_part(surface.triangles);
+  return "cells (tetrahedra) hold " + percent(cells / volume) + " of the body, " +
+         three_digits(cells) + " of " + three_digits(volume) + " m^3: " +
+         (thinnest ? "they are lost in parts thinner than two radii; a radius of " +
+                         three_digits(*thinnest / thinnest_with_cells) + " m keeps them"
+                   : "a smaller radius keeps more");
+}
 
 std::optional<std::string> size_warning(double longest) {
   if (longest <= huge && longest >= minute) return std::nullopt;

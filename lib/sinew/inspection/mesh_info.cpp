@@ -29,7 +29,7 @@ void add_counts(const Surface& surface, Findings& results) {
 void add_cleaning(const CleaningCounts& counts, Findings& results) {
   for (const NamedCount& one : cleaning_counts())
     if (one.of != NamedCount::Of::repair || counts.*one.count > 0)
-      results.add(std::string(one.name), counts.*one.count);
+      results.add(std::string(one.name), counts.*one.count, std::string(one.unit));
 }
 
 void add_radii(double inside, const Diagnosis& diagnosis, Findings& results) {
@@ -70,12 +70,16 @@ MeshInfo inspect_mesh(const Surface& surface) {
   MeshInfo info;
   Findings& results = info.findings;
   const Diagnosis diagnosis = diagnose(surface);
-  const double ambiguous = ambiguous_fraction(surface), inside = volume_inside(surface);
+  const double ambiguous = ambiguous_fraction(surface);
+  const auto [inside, exact] = volume_inside(surface);
   add_counts(surface, results);
   results.add("self_intersections", diagnosis.intersections.pairs,
               diagnosis.intersections.complete ? "" : "at least");
   add_cleaning(surface.cleaning, results);
-  results.add("volume", inside, surface.closed() ? "m^3" : "m^3, about");
+  results.add("volume", inside,
+              exact              ? "m^3"
+              : surface.closed() ? "m^3, about, of parts that overlap"
+                                 : "m^3, about");
   results.add("area", area(surface.triangles), "m^2");
   const Box box = bounds(surface.triangles.points);
   results.add("box_low", as_list(box.min()), "m");

@@ -133,6 +133,8 @@ class Run {
     const StepChoice steps = prepared.steps;
     const Motion motion = prepared.motion;
     std::optional<VolumeCells> cells = cells_to_write(prepared);
+    if (cells && options_.warning)
+      if (const auto lost = lost_by_cells(*cells, prepared)) options_.warning(*lost);
     FrameScene around{std::move(prepared.surface.triangles),
                       std::move(prepared.obstacles),
                       std::move(prepared.look),

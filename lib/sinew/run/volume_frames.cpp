@@ -8,6 +8,7 @@
 #include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
+#include <sinew/fill/fill_warnings.h>
 #include <sinew/io/checksums.h>
 #include <sinew/io/series.h>
 #include <sinew/io/vtu.h>
@@ -77,6 +78,21 @@ std::optional<VolumeCells> cells_to_write(const Prepared& prepared) {
 
 namespace {
 
+/// Mass over density of all particles.
+double volume_of(const Particles& particles, double density) {
+  return particles.mass * static_cast<double>(particles.size()) / density;
+}
+
+}  // namespace
+
+std::optional<std::string> lost_by_cells(const VolumeCells& cells, const Prepared& prepared) {
+  return cell_warning(quality_of(cells).volume,
+                      volume_of(prepared.filled.particles, prepared.settings.material.density),
+                      prepared.surface);
+}
+
+namespace {
+
 /// The bones of particles as the run has written them.
 Binding binding_of(const std::vector<std::int32_t>& bones) {
   Binding binding;
@@ -119,15 +135,17 @@ std::vector<ParticlePair> broken_in(const std::filesystem::path& file) {
   return pairs;
 }
 
-VolumeFrames frames_of(const RunFiles& run) {
+VolumeFrames frames_of(const RunFiles& run, std::optional<std::string>& warning) {
   if (!run.ids.empty())
     throw bad_input(Place{run.folder.path.string()}, "has not written all particles",
                     "run the scene without output.region and output.inside_every");
   const Points rest = positions_of(run.body.particles);
   const double radius = run.body.particles.radius;
   const Surface surface = read_mesh(run.settings);
-  return {cells_of_body(run.settings, surface, rest, radius), rest, radius, run.skeleton,
-          binding_of(*run.body.bone)};
+  VolumeCells cells = cells_of_body(run.settings, surface, rest, radius);
+  warning = cell_warning(quality_of(cells).volume,
+                         volume_of(run.body.particles, run.settings.material.density), surface);
+  return {std::move(cells), rest, radius, run.skeleton, binding_of(*run.body.bone)};
 }
 
 std::vector<char> apart_in(const RunFiles& run, std::size_t frame, const Dataset& particles,
@@ -155,7 +173,7 @@ void list_files(const std::filesystem::path& folder, const std::vector<PvdRow>& 
 
 }  // namespace
 
-RunVolume::RunVolume(const RunFiles& run) : run_(&run), frames_(frames_of(run)) {}
+RunVolume::RunVolume(const RunFiles& run) : run_(&run), frames_(frames_of(run, warning_)) {}
 
 Dataset RunVolume::at(std::size_t index, const Dataset& particles) const {
   return frames_.at(particles, apart_in(*run_, index, particles, frames_));
@@ -179,7 +197,7 @@ ExportedVolume export_volume(const RunFiles& run, const std::vector<std::size_t>
   }
   series.close();
   if (std::filesystem::equivalent(folder, run.folder.path)) list_files(folder, series.rows());
-  return {frames.size(), volume.cells(), folder / "volume.pvd"};
+  return {frames.size(), volume.cells(), folder / "volume.pvd", volume.warning()};
 }
 
 }  // namespace sinew

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,8 @@ Dataset in_single_precision(Dataset particles, double radius);
 
 /// The cells of a scene's body, where it asks for them (output.volume).
 std::optional<VolumeCells> cells_to_write(const Prepared& prepared);
+/// A warning where they hold clearly less than the body.
+std::optional<std::string> lost_by_cells(const VolumeCells& cells, const Prepared& prepared);
 
 /// The cells of a run's body in its frames. Of bonds that may break, those count as broken that the
 /// run has written so, or else the longest ones of particles that have lost some.
@@ -65,17 +68,21 @@ class RunVolume {
   explicit RunVolume(const RunFiles& run);
 
   std::size_t cells() const { return frames_.cells(); }
+  /// A warning where they hold clearly less than the body.
+  const std::optional<std::string>& warning() const { return warning_; }
   /// `particles`: all of them in frame `index`, with `broken_bonds` where the run has written it.
   Dataset at(std::size_t index, const Dataset& particles) const;
 
  private:
   const RunFiles* run_;
+  std::optional<std::string> warning_;
   VolumeFrames frames_;
 };
 
 struct ExportedVolume {
   std::size_t frames = 0, cells = 0;
   std::filesystem::path pvd;
+  std::optional<std::string> warning;  ///< see RunVolume::warning()
 };
 
 /// Writes these frames of a run as the series `volume` in `folder`, as the run itself does with

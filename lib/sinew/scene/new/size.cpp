@@ -101,7 +101,7 @@ double usual_radius(double inner, double volume) {
 void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewChoices& choices) {
   BodyOptions& body = choices.settings.body;
   const double area_of = area(surface.triangles);
-  const double volume = volume_inside(surface);
+  const double volume = volume_inside(surface).volume;
   const double mean = 2 * volume / area_of;  // of a rod its radius, of a sheet its thickness
   const double inner = choices.hollow ? mean / 2 : std::min(thin_inner(limbs), mean);
   const std::size_t parts =

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +17,10 @@ namespace {
 constexpr std::size_t edges_at_a_time = 64;
 constexpr double longest_touching = 2.4;  // radii
 constexpr double flat_at_crease = 12;     // degrees
+constexpr double thin_wall = 1;           // edges
+constexpr double flat_in_wall = 8;        // degrees
+constexpr double nearest_side = 0.22;     // of its thickness, from a point in it
+constexpr double opposed = -0.6;          // cosine between crossings on two sides of a wall
 
 /// An edge that crosses the border.
 struct CutEdge {
@@ -32,8 +38,12 @@ enum class Side : signed char { outside = -1, border = 0, inside = 1 };
 class Stuffing {
  public:
   Stuffing(const Scaffold& scaffold, const BodyBorder& border, double radius,
-           const NearFractions& near)
-      : scaffold_(scaffold), border_(border), near_(near), touching_(longest_touching * radius) {
+           const NearFractions& near, const std::vector<char>& left)
+      : scaffold_(scaffold),
+        border_(border),
+        near_(near),
+        touching_(longest_touching * radius),
+        left_(left) {
     for (const char inside : scaffold.inside)
       side_.push_back(inside ? Side::inside : Side::outside);
     body_.points = scaffold.points;
@@ -42,13 +52,35 @@ class Stuffing {
     parallel_for(edges_.size(), edges_at_a_time, [&](std::size_t begin, std::size_t end) {
       for (std::size_t e = begin; e < end; ++e) cross(edges_[e]);
     });
+    center_in_walls();
     move_points();
     add_crossings();
     for (const Cell& cell : scaffold.cells) cut(cell);
-    drop_unused_points();
   }
 
-  VolumeCells result() && { return std::move(body_); }
+  /// Points that center_in_walls() has moved, at cells that are too flat.
+  std::vector<std::uint32_t> moved_at_flat_cells() const {
+    std::vector<std::uint32_t> found;
+    if (std::find(in_wall_.begin(), in_wall_.end(), 1) == in_wall_.end()) return found;
+    std::vector<std::uint32_t> owner(body_.points.size());  // of crossings, their ends inside
+    std::iota(owner.begin(), owner.end(), 0U);
+    for (const CutEdge& edge : edges_)
+      if (edge.open) owner[edge.point] = edge.inside;
+    for (const Cell& cell : body_.cells) {
+      if (std::none_of(cell.begin(), cell.end(),
+                       [&](std::uint32_t v) { return in_wall_[owner[v]] != 0; }) ||
+          smallest_angle({&cell, 1}) >= flat_in_wall)
+        continue;
+      for (const std::uint32_t v : cell)
+        if (in_wall_[owner[v]]) found.push_back(owner[v]);
+    }
+    return found;
+  }
+
+  VolumeCells result() && {
+    drop_unused_points();
+    return std::move(body_);
+  }
 
  private:
   void find_edges() {
@@ -63,9 +95,60 @@ class Stuffing {
   }
 
   void cross(CutEdge& edge) const {
-    const Vec3 &from = scaffold_.points[edge.inside], &to = scaffold_.points[edge.outside];
+    const Vec3 &from = body_.points[edge.inside], &to = body_.points[edge.outside];
     edge.at = border_.crossing(from, to);
     edge.place = from + edge.at * (to - from);
+  }
+
+  double near(const CutEdge& edge) const {
+    return length(edge) < touching_ ? near_.touching : near_.longer;
+  }
+
+  double length(const CutEdge& edge) const {
+    return (scaffold_.points[edge.inside] - scaffold_.points[edge.outside]).norm();
+  }
+
+  /// Moves points inside of thin walls, if near one side, to the middle: on the border they would
+  /// take their cells with them. Leaves `left` ones, and those that stay near a side.
+  void center_in_walls() {
+    in_wall_.assign(side_.size(), 0);
+    for (auto begin = edges_.begin(), end = begin; begin != edges_.end(); begin = end) {
+      end = std::find_if(begin, edges_.end(),
+                         [&](const CutEdge& edge) { return edge.inside != begin->inside; });
+      if (!left_[begin->inside] &&
+          std::any_of(begin, end, [&](const CutEdge& edge) { return edge.at < near(edge); }))
+        center(std::span(begin, end));
+    }
+  }
+
+  void center(std::span<CutEdge> edges) {
+    Vec3& point = body_.points[edges[0].inside];
+    const auto shorter = [&](const CutEdge& a, const CutEdge& b) {
+      return (a.place - point).squaredNorm() < (b.place - point).squaredNorm();
+    };
+    const Vec3 nearest = std::min_element(edges.begin(), edges.end(), shorter)->place - point;
+    std::optional<Vec3> opposite;
+    for (const CutEdge& edge : edges) {
+      const Vec3 way = edge.place - point;
+      if (way.dot(nearest) < opposed * way.norm() * nearest.norm() &&
+          (!opposite || way.norm() < opposite->norm()))
+        opposite = way;
+    }
+    if (!opposite) return;
+    const double thickness = (nearest.norm() + opposite->norm()) / touching_;
+    if (thickness > thin_wall) return;
+    const Vec3 before = std::exchange(point, point + (nearest + *opposite) / 2);
+    for (CutEdge& edge : edges) cross(edge);
+    const bool centered = std::none_of(edges.begin(), edges.end(), [&](const CutEdge& edge) {
+      return edge.at < nearest_side * thickness;
+    });
+    if (centered) {
+      body_.id[edges[0].inside] = -1;
+      in_wall_[edges[0].inside] = 1;
+    } else {
+      point = before;
+      for (CutEdge& edge : edges) cross(edge);
+    }
   }
 
   /// Moves ends of edges to crossings that are near, nearest first.
@@ -77,11 +160,10 @@ class Stuffing {
     std::vector<Move> moves;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       const CutEdge& edge = edges_[e];
-      const double length = (scaffold_.points[edge.inside] - scaffold_.points[edge.outside]).norm();
-      const double near = length < touching_ ? near_.touching : near_.longer;
-      const double scale = length / touching_;
-      if (edge.at < near) moves.push_back({edge.at * scale, e, edge.inside});
-      if (1 - edge.at < near) moves.push_back({(1 - edge.at) * scale, e, edge.outside});
+      const double scale = length(edge) / touching_;
+      if (edge.at < near(edge) && !in_wall_[edge.inside])
+        moves.push_back({edge.at * scale, e, edge.inside});
+      if (1 - edge.at < near(edge)) moves.push_back({(1 - edge.at) * scale, e, edge.outside});
     }
     std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) {
       return std::tie(a.fraction, a.edge, a.point) < std::tie(b.fraction, b.edge, b.point);
@@ -244,7 +326,9 @@ class Stuffing {
   NearFractions near_;
   double touching_;  ///< m
   std::vector<Side> side_;
-  std::vector<CutEdge> edges_;  ///< sorted
+  const std::vector<char>& left_;  ///< points where they are
+  std::vector<char> in_wall_;      ///< points that center_in_walls() has moved
+  std::vector<CutEdge> edges_;     ///< sorted
   VolumeCells body_;
 };
 
@@ -252,7 +336,13 @@ class Stuffing {
 
 VolumeCells stuffed(const Scaffold& scaffold, const BodyBorder& border, double radius,
                     const NearFractions& near) {
-  return Stuffing(scaffold, border, radius, near).result();
+  std::vector<char> left(scaffold.points.size());
+  for (;;) {
+    Stuffing stuffing(scaffold, border, radius, near, left);
+    const std::vector<std::uint32_t> flat = stuffing.moved_at_flat_cells();
+    if (flat.empty()) return std::move(stuffing).result();
+    for (const std::uint32_t point : flat) left[point] = 1;
+  }
 }
 
 }  // namespace sinew
