@@ -21,6 +21,7 @@ struct Options {
   NewSceneWish wish;
   std::string shape;
   std::string size = "0.1,0.1,0.4";
+  std::string up;
 };
 
 void declare(OptionList& list, Options& options) {
@@ -36,6 +37,8 @@ void declare(OptionList& list, Options& options) {
   list.add("--size", options.size, "Its sides along x, y, z in meters")
       .type_name("X,Y,Z")
       .show_default();
+  list.add("--up", options.up, "Axis of the mesh that points up: y or z; by default a guess")
+      .type_name("AXIS");
   list.add_flag("--force", options.wish.force, "Replace an older scene");
 }
 
@@ -52,6 +55,13 @@ Vec3 size_of(const std::string& text) {
     throw bad_input("--size " + shown(text) + " is over 500 times as long as thin",
                     "make it shorter or thicker");
   return size;
+}
+
+std::optional<Axis> up_of(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  if (word == "y") return Axis::y;
+  if (word == "z") return Axis::z;
+  throw bad_input("--up " + shown(word) + " is no axis of meshes", "give y or z");
 }
 
 Triangles solid_of(const Options& options) {
@@ -72,6 +82,7 @@ Exit make(Options options, const Common& common) {
     options.wish.body = solid_of(options);
     options.wish.mesh = options.shape;
   }
+  options.wish.up = up_of(options.up);
   const WrittenScene written = [&] {
     const Waiting waiting("looking at the mesh", progress_style(common.quiet));
     return write_new_scene(options.wish);
@@ -82,6 +93,7 @@ Exit make(Options options, const Common& common) {
   if (!scene.mesh.empty()) results.add("mesh", scene.mesh);
   results.add("unit", scene.unit);
   results.add("up", scene.axes);
+  if (!scene.holes.empty()) results.add("holes", scene.holes);
   results.add("bones", scene.bones);
   if (!scene.pose.empty()) results.add("rest", scene.pose);
   results.add("size", scene.size);

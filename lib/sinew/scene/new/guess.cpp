@@ -14,6 +14,7 @@ namespace {
 constexpr double longest_in_m = 20, longest_stl_in_m = 2, shortest_figure_in_cm = 50,
                  longest_figure_in_cm = 300;
 constexpr double on_ground = 0.02;  // of the height
+constexpr double clearly = 2;       // as large as another footprint
 
 std::string format_of(const std::filesystem::path& mesh) {
   return lower(mesh.extension().string());
@@ -34,6 +35,23 @@ bool stands(const Box& box, int axis) {
   return on_zero;
 }
 
+/// The share of the box's base on which the body stands along an axis: that of the box around its
+/// lowest points; 0 where its middle is not above them.
+double footprint(const Points& points, const Box& box, int axis) {
+  const double lowest = box.min()[axis] + on_ground * box.sizes()[axis];
+  Box foot;
+  for (const Vec3& point : points)
+    if (point[axis] <= lowest) foot.extend(point);
+  double share = 1;
+  for (int other = 0; other < 3; ++other) {
+    if (other == axis) continue;
+    const double middle = box.center()[other];
+    if (middle < foot.min()[other] || middle > foot.max()[other]) return 0;
+    share *= foot.sizes()[other] / box.sizes()[other];
+  }
+  return share;
+}
+
 }  // namespace
 
 UnitGuess guess_unit(const std::filesystem::path& mesh, double longest) {
@@ -48,11 +66,17 @@ UnitGuess guess_unit(const std::filesystem::path& mesh, double longest) {
   return {LengthUnit::mm, long_text(longest) + ": too long for meters, millimeters are usual"};
 }
 
-UpGuess guess_up(const std::filesystem::path& mesh, const Box& box) {
-  if (is_gltf(format_of(mesh))) return {Axis::y, "y is up in glTF"};
+UpGuess guess_up(const std::filesystem::path& mesh, const Points& points) {
+  const std::string format = format_of(mesh);
+  const Box box = bounds(points);
+  if (is_gltf(format)) return {Axis::y, "y is up in glTF"};
   if (stands(box, 2)) return {Axis::z, "the body stands on z = 0"};
   if (stands(box, 1)) return {Axis::y, "the body stands on y = 0"};
-  return {Axis::z, "nothing in the file says otherwise"};
+  const double by_y = footprint(points, box, 1), by_z = footprint(points, box, 2);
+  if (by_z > clearly * by_y) return {Axis::z, "the body stands along z on its lowest points"};
+  if (by_y > clearly * by_z) return {Axis::y, "the body stands along y on its lowest points"};
+  if (format == ".obj") return {Axis::y, "y is up in most OBJ files; else give --up z"};
+  return {Axis::z, "nothing in the file says otherwise; else give --up y"};
 }
 
 }  // namespace sinew

@@ -30,6 +30,7 @@ constexpr double usual_size = 0.5, usual_modulus = 10e3;
 constexpr double layer_fraction = 1.0 / 40;  // thickness of a layer along a mesh without inside
 constexpr double open_fraction = 0.12;   // of a component's area, its holes: it encloses nothing
 constexpr double smallest_shell = 0.05;  // of the area of the mesh
+constexpr double most_added = 0.2;       // of the skin, by closing holes
 
 double extent(const Surface& surface) {
   return bounds(surface.triangles.points).sizes().maxCoeff();
@@ -94,21 +95,45 @@ Surface layered_shells(const Surface& surface, const std::vector<bool>& open, Ne
   return clean(soup);
 }
 
-/// Reads the mesh; unit and axes as guessed.
-Surface read_guessing(NewChoices& choices) {
+/// The mesh with its holes closed, where that adds little to its skin.
+std::optional<Surface> with_closed_holes(const Surface& open, BodyOptions body) {
+  if (open.closed()) return std::nullopt;
+  body.close_holes = true;
+  try {
+    Surface closed = read_body_mesh(body);
+    const double skin = area(closed.triangles);
+    if (!closed.closed() || skin - area(open.triangles) > most_added * skin ||
+        !(volume_inside(closed).volume > 0))
+      return std::nullopt;
+    return closed;
+  } catch (const Error&) {  // nothing is enclosed
+    return std::nullopt;
+  }
+}
+
+/// Reads the mesh; unit and axes as guessed, and its holes closed where they can be.
+Surface read_guessing(NewChoices& choices, const std::optional<Axis>& given_up) {
   BodyOptions& body = choices.settings.body;
   Surface surface = read_body_mesh(body);
   const UnitGuess unit = guess_unit(body.mesh, extent(surface));
-  const UpGuess up = guess_up(body.mesh, bounds(surface.triangles.points));
+  const UpGuess up =
+      given_up ? UpGuess{*given_up, "as --up says"} : guess_up(body.mesh, surface.triangles.points);
   body.unit = unit.unit, choices.unit = unit.why;
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
+  if (auto closed = with_closed_holes(surface, body)) {
+    body.close_holes = true;
+    const std::size_t holes = closed->cleaning.holes_closed;
+    choices.holes = std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
+                    " of the mesh, closed (body.close_holes)";
+    return std::move(*closed);
+  }
   const std::vector<bool> open = open_shells(surface);
   const auto shells = std::count(open.begin(), open.end(), true);
   if (shells > 0 && shells < surface.components) surface = layered_shells(surface, open, choices);
   const bool no_inside =
-      ambiguous_fraction(surface) > max_ambiguous || !(volume_inside(surface) > 0);
+      ambiguous_fraction(surface) > max_ambiguous || !(volume_inside(surface).volume > 0);
   return no_inside || shells == surface.components ? layer_along(surface, choices) : surface;
 }
 
@@ -184,7 +209,7 @@ void refine_mesh(const std::string& scene, const Surface& surface, NewChoices& c
   if (choices.changed.empty()) choices.changed = "smaller triangles of";
   choices.changed += ' ' + shown(std::filesystem::path(body.mesh).filename().string());
   body.mesh = made.mesh;
-  body.unit = LengthUnit::m, body.up = Axis::z, body.forward.reset();
+  body.unit = LengthUnit::m, body.up = Axis::z, body.forward.reset(), body.close_holes = false;
 }
 
 void choose_material(const Surface& surface, NewChoices& choices) {
@@ -237,7 +262,7 @@ NewScene new_scene(const NewSceneFiles& files) {
   settings.body.mesh = files.mesh;
   settings.output.interval = 1 / pictures;
   Surface surface =
-      files.figure == nullptr ? read_guessing(choices) : read_body_mesh(settings.body);
+      files.figure == nullptr ? read_guessing(choices, files.up) : read_body_mesh(settings.body);
   const std::string warning = surface.warning;
   const std::string rig = !files.rig.empty() ? files.rig : rig_within(files.mesh);
   if (files.figure != nullptr)
@@ -258,7 +283,7 @@ NewScene new_scene(const NewSceneFiles& files) {
   NewScene made;
   refine_mesh(files.scene, surface, choices, made);
   made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());
-  made.unit = choices.unit, made.axes = choices.axes;
+  made.unit = choices.unit, made.axes = choices.axes, made.holes = choices.holes;
   made.bones = choices.bones, made.pose = choices.pose, made.size = choices.size,
   made.warning = warning;
   return made;

@@ -36,6 +36,7 @@ struct NewSceneFiles {
   std::string rig;                  ///< a path; "": the mesh's own, if it has one
   std::string scene;                ///< where it will be; paths in it are relative to its folder
   const RigBody* figure = nullptr;  ///< the mesh is its skin
+  std::optional<Axis> up = {};      ///< of the mesh; none: guessed
 };
 
 struct NewScene {
@@ -43,6 +44,7 @@ struct NewScene {
   std::string mesh, mesh_text;          ///< a file that it needs, beside it; "": none
   std::string unit, axes, bones, size;  ///< one line each: what was chosen, and why
   std::string pose;                     ///< why the rest pose is one of the clip; "": it is not
+  std::string holes;                    ///< that are closed; "": none
   std::string warning;                  ///< of the mesh's reader; "": none
 };
 
@@ -61,6 +63,7 @@ struct NewSceneWish {
   std::optional<Triangles> body = {};  ///< in place of a mesh: a shape, called `mesh`
   bool force = false;                  ///< replace older files
   std::optional<PolygonSoup> polygons = {};
+  std::optional<Axis> up = {};  ///< of the mesh; none: guessed
 };
 
 struct WrittenScene {
@@ -87,8 +90,9 @@ struct UpGuess {
   std::string why;
 };
 
-/// Guesses by the format, and by the axis in which the body stands on 0, as the file has it.
-UpGuess guess_up(const std::filesystem::path& mesh, const Box& box);
+/// Guesses by the format, and by the axis along which the body stands: on 0, or else on its lowest
+/// points (m, as the file has them).
+UpGuess guess_up(const std::filesystem::path& mesh, const Points& points);
 
 // What a new scene is made of, before it is text.
 
@@ -106,6 +110,7 @@ struct NewChoices {
   std::string clip_note = {};           ///< about that one
   bool begins_posed = false;            ///< it begins far from rest
   bool hollow = false;                  ///< a shell, whose bones lie outside of it
+  std::string holes = {};               ///< that are closed; "": none
   std::string changed = {};             ///< what the written mesh is; "": the given one
 };
 

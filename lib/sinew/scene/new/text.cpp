@@ -58,6 +58,7 @@ std::string body_text(const NewChoices& choices, const std::filesystem::path& fo
   text += note("Unit: " + choices.unit + '.') + key_text(s, "body", "unit");
   text += note("Up: " + choices.axes + '.') + key_text(s, "body", "up");
   if (s.body.forward) text += key_text(s, "body", "forward");
+  if (s.body.close_holes) text += note(choices.holes + '.') + key_text(s, "body", "close_holes");
   return text + note(choices.size + '.') + key_text(s, "body", "radius");
 }
 
