@@ -170,6 +170,26 @@ TEST(Read, TakesObjAsProgramsWriteIt) {
   EXPECT_DOUBLE_EQ(volume(surface.triangles), 1.0 / 6);
 }
 
+TEST(Read, LosesNoLineOfAnObjToABackslash) {
+  const Folder folder;
+  const auto read = [&](const std::string& text) {
+    const PolygonSoup soup = read_polygons(folder.file("a.obj", text));
+    EXPECT_EQ(soup.points, shapes::tetrahedron().points) << text;
+    EXPECT_EQ(soup.polygons, shapes::tetrahedron().polygons) << text;
+    return soup.warning;
+  };
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const std::string faces = "f 1 3 2\nf 1 2 4 # last \\\nf 2 3 4\nf 3 1 4\n";
+  EXPECT_EQ(read("# C:\\models\\\n" + points + "# a \\\r\n" + faces), "");
+  EXPECT_EQ(read(points + "g a \\\nb\nf 1 \\\r\n 3 2 \\\n" + faces.substr(faces.find('\n'))), "");
+  EXPECT_NE(read("mtllib C:\\tex\\\n" + points + faces), "");
+  EXPECT_NE(read(points + "usemtl a\\b\\\r\n" + faces), "");
+  EXPECT_NE(read(points + "vn 0 0 1 \\\n" + faces), "");
+  PolygonLook look;
+  read_obj_look(folder.file("a.obj", points + "usemtl a\\b\\\n" + faces), look);
+  EXPECT_EQ(look.look.parts.at(0).material, "a\\b\\");
+}
+
 TEST(Read, TakesOffWithColorsAndCountsOnTheFirstLine) {
   const Folder folder;
   const std::string body =
@@ -181,6 +201,25 @@ TEST(Read, TakesOffWithColorsAndCountsOnTheFirstLine) {
         read_surface(mesh_files::body_at(folder.file("a.off", head + body))).triangles.faces.size(),
         4u)
         << head;
+}
+
+TEST(Read, TakesOffInLinesOfAnyLength) {
+  const Folder folder;
+  const std::string points = "0 0 0  1 0 0 # a comment\n0 1 0\n0 0\n1\n";
+  const std::string faces = "3 0\n2 1 3 0 1 3 3 1 2 3\n\n3\n2\n0 3\n";
+  const std::string rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  for (const std::string& text :
+       {"OFF 4 4 6\n" + points + faces, "OFF\n4\n4\n6\n" + points + faces,
+        "OFF4 4 6\n" + points + faces, "off\n4 4\n6\n" + rows, "OFF4 4 0\n" + rows,
+        std::string("CNOFF 4 4 0 0 0 0 0 0 1 .1 .2 .3 1\n1 0 0 0 0 1 1 0 0 1 0 1 0 0 0 1 0 1 0 1 "
+                    "0 0 1 0 0 1 1 1 1 1\n") +
+            faces}) {
+    const PolygonSoup soup = read_polygons(folder.file("a.off", text));
+    EXPECT_EQ(soup.points, shapes::tetrahedron().points) << text;
+    EXPECT_EQ(soup.polygons, shapes::tetrahedron().polygons) << text;
+    EXPECT_EQ(soup.warning, "");
+  }
+  EXPECT_NE(read_polygons(folder.file("a.off", "OFF\n4 3 0\n" + rows)).warning, "");
 }
 
 TEST(Read, TakesPlyWithOtherElementsAndProperties) {

@@ -19,8 +19,7 @@ std::string first_word(std::string_view content) {
 }
 
 bool begins_off(std::string_view content) {
-  const std::string word = first_word(content);
-  return word == "off" || word == "coff" || word == "noff" || word == "cnoff";
+  return is_off_keyword(Words(content.substr(0, 100)).next());
 }
 
 /// Binary files may begin with "solid" as well.

@@ -45,8 +45,12 @@ PolygonSoup read_obj(const MeshFile& file, PolygonLook& look);
 /// None where it cannot be read; what is no number is left out.
 std::vector<SurfaceLook::Material> read_mtl(const std::string& path);
 
-/// Geomview OFF (also with colors, normals, texture coordinates; text only).
+/// Geomview OFF (also with colors, normals, texture coordinates; text only), by lines or, where
+/// they do not fit, by words: numbers in lines of any length, without colors of the faces.
 PolygonSoup read_off(const MeshFile& file);
+
+/// "OFF", "COFF" and so on; the number of vertices may follow without a blank.
+bool is_off_keyword(std::string_view word);
 
 /// STL, text or binary: three points of its own for each triangle.
 PolygonSoup read_stl(const MeshFile& file);

@@ -22,6 +22,7 @@ class Words {
 
   /// The line of the last word returned.
   int line() const { return line_; }
+  std::string_view rest() const { return rest_; }
 
  private:
   std::string_view rest_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -9,22 +10,49 @@
 namespace sinew {
 namespace {
 
-/// Joins lines that end in a backslash with the next; the number of lines is unchanged.
-std::string joined(std::string_view text) {
-  std::string result;
-  result.reserve(text.size());
+bool begins_comment(std::string_view word) { return word.starts_with('#'); }
+
+/// Whether a line is of its own, whatever ends the one before it.
+bool begins_with_keyword(std::string_view line) {
+  constexpr std::array<std::string_view, 10> keywords = {"v", "vt", "vn", "f",      "l",
+                                                         "p", "o",  "s",  "usemtl", "mtllib"};
+  const std::string_view word = Words(line).next();
+  return begins_comment(word) ||
+         std::find(keywords.begin(), keywords.end(), word) != keywords.end();
+}
+
+bool has_comment(std::string_view line) {
+  Words words(line);
+  std::string_view word = words.next();
+  while (!word.empty() && !begins_comment(word)) word = words.next();
+  return !word.empty();
+}
+
+struct Joined {
+  std::string text;
+  int ends = 0;  ///< lines that end in a backslash, but not in the next line
+};
+
+/// Joins lines that end in a backslash with the next; the number of lines is unchanged. Comments
+/// end with their line, and names of files and materials before a keyword keep their backslash.
+Joined joined(std::string_view text) {
+  Joined result;
+  result.text.reserve(text.size());
   std::size_t swallowed = 0;
   for (Lines lines(text); lines.next();) {
     std::string_view line = lines.line();
     if (line.ends_with('\r')) line.remove_suffix(1);
-    const bool continued = line.ends_with('\\');
-    if (continued) line.remove_suffix(1);
-    result.append(line);
+    Lines after = lines;
+    const bool marked = line.ends_with('\\') && !has_comment(line);
+    const bool continued = marked && !(after.next() && begins_with_keyword(after.line()));
+    result.ends += marked && !continued;
+    if (marked && (continued || line.ends_with(" \\"))) line.remove_suffix(1);
+    result.text.append(line);
     if (continued) {
       ++swallowed;
-      result += ' ';
+      result.text += ' ';
     } else {
-      result.append(1 + std::exchange(swallowed, 0), '\n');
+      result.text.append(1 + std::exchange(swallowed, 0), '\n');
     }
   }
   return result;
@@ -38,7 +66,7 @@ class ObjReader {
     if (file_.content.find('\\') == std::string::npos)
       read(file_.content);
     else
-      read(joined(file_.content));
+      read_joined(joined(file_.content));
     if (soup_.points.empty() || soup_.polygons.empty())
       throw file_.broken(0, soup_.points.empty() ? "there are no vertices" : "there are no faces",
                          "export the mesh again as OBJ with its faces");
@@ -62,6 +90,13 @@ class ObjReader {
       if (look_) look_at(keyword, lines.line(), words);
     }
     refuse_too_many_points(file_, soup_.points.size());
+  }
+
+  void read_joined(const Joined& joined) {
+    read(joined.text);
+    if (joined.ends == 0) return;
+    soup_.warning = "lines that end in a backslash before the keyword of another line: " +
+                    std::to_string(joined.ends) + "; they are read as two lines";
   }
 
   /// The lines of a look.
@@ -106,7 +141,8 @@ class ObjReader {
       look_->corners.emplace_back();
       look_->normal_corners.emplace_back();
     }
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    for (std::string_view word = words.next(); !word.empty() && !begins_comment(word);
+         word = words.next()) {
       corners_.push_back(static_cast<int>(corner(word, words.line()) - 1));
       if (!look_) continue;
       look_->corners.back().push_back(index_in(word, 1, look_->look.coordinates.size()));

@@ -8,63 +8,86 @@
 namespace sinew {
 namespace {
 
+/// How the numbers of a vertex or face are told from those of the next.
+enum class Layout {
+  lines,  ///< each has a line of its own, which colors may end
+  words   ///< each has as many as the header says, in lines of any length
+};
+
 class OffReader {
  public:
-  explicit OffReader(const MeshFile& file) : file_(file), lines_(file.content) {}
+  OffReader(const MeshFile& file, std::string_view text, Layout layout)
+      : file_(file), lines_(text), words_(text), layout_(layout) {}
 
   PolygonSoup soup() {
-    const auto [vertices, faces] = header();
+    const auto [vertices, faces] = counts();
     const auto bytes = static_cast<std::int64_t>(file_.content.size());
     PolygonSoup soup;  // a vertex takes 6 bytes or more, a face 8
     soup.points.reserve(std::min(vertices, bytes / 6));
     soup.polygons.reserve(std::min(faces, bytes / 8));
     for (std::int64_t i = 0; i < vertices; ++i) {
-      Words words = line();
-      soup.points.push_back(next_point(words, file_));
+      soup.points.push_back(next_point(row(), file_));
+      if (layout_ == Layout::words)
+        for (int k = 0; k < more_per_vertex_; ++k) words_.next();
     }
     refuse_too_many_points(file_, soup.points.size());
     for (std::int64_t i = 0; i < faces; ++i) soup.polygons.push_back(face(vertices));
+    soup.warning = unread();
     return soup;
   }
 
+  bool has_counts() const { return has_counts_; }  ///< whether they were read
+
  private:
-  /// The words of the next line that is neither empty nor a comment.
-  Words line() {
-    while (lines_.next()) {
-      const std::string_view text = lines_.line().substr(0, lines_.line().find('#'));
-      if (!Words(text).next().empty()) return Words(text, lines_.number());
-    }
-    throw file_.broken(lines_.number(), "the file ends early", "export the mesh again");
+  /// The words of the next line that has any, or those of the whole rest.
+  Words& row() {
+    if (layout_ == Layout::words) return words_;
+    while (lines_.next())
+      if (!Words(lines_.line()).next().empty())
+        return words_ = Words(lines_.line(), lines_.number());
+    throw ends_early(lines_.number());
   }
 
-  std::array<std::int64_t, 2> header() {
-    Words words = line();
-    std::string_view word = words.next();
-    if (word.ends_with("OFF")) {
-      refuse_unread(word, words.line());
-      word = words.next();
-      if (word.empty()) word = (words = line()).next();
+  Error ends_early(int line) const {
+    return file_.broken(line, "the file ends early", "export the mesh again");
+  }
+
+  std::array<std::int64_t, 2> counts() {
+    row();
+    std::string_view word = words_.next();
+    if (is_off_keyword(word)) {
+      word = after_keyword(word);
+      if (word.empty()) word = words_.next();
+      if (word.empty()) row(), word = words_.next();
     }
-    const auto vertices = integer_in(word), faces = integer_in(words.next());
+    const auto vertices = integer_in(word), faces = integer_in(words_.next());
     if (!vertices || !faces || *vertices < 1 || *faces < 1)
-      throw file_.broken(words.line(),
+      throw file_.broken(words_.line(),
                          word == "BINARY"
                              ? "binary OFF cannot be read"
                              : "expected the numbers of vertices and faces, not " + shown(word),
                          "export the mesh as OFF text with its faces");
+    if (layout_ == Layout::words) words_.next();  // the number of edges
+    has_counts_ = true;
     return {*vertices, *faces};
   }
 
-  void refuse_unread(std::string_view keyword, int line) {
-    keyword.remove_suffix(3);
-    if (keyword.find_first_of("4n") != std::string_view::npos)
-      throw file_.broken(line, "OFF in more than 3 dimensions cannot be read",
+  /// Takes in what the keyword says of the vertices. Returns what follows it without a blank.
+  std::string_view after_keyword(std::string_view word) {
+    const std::size_t end = lower(word).find("off");
+    const std::string_view kinds = word.substr(0, end);
+    if (kinds.find_first_of("4n") != kinds.npos)
+      throw file_.broken(words_.line(), "OFF in more than 3 dimensions cannot be read",
                          "export the mesh as plain OFF");
+    const auto has = [&](const char* kind) { return kinds.find(kind) != kinds.npos; };
+    more_per_vertex_ = 3 * has("N") + 4 * has("C") + 2 * has("ST");
+    return word.substr(end + 3);
   }
 
   std::vector<int> face(std::int64_t vertices) {
-    Words words = line();
+    Words& words = row();
     const std::string_view count = words.next();
+    if (count.empty()) throw ends_early(words.line());
     const auto corners = integer_in(count);
     if (!corners || *corners < 3)
       throw file_.broken(words.line(), "the face has " + shown(count) + " corners",
@@ -87,12 +110,56 @@ class OffReader {
     return static_cast<int>(*index);
   }
 
+  /// What is told of the words after the last face. Throws where the words alone say what is what.
+  std::string unread() {
+    Words rest(layout_ == Layout::lines ? lines_.rest() : words_.rest());
+    if (rest.next().empty()) return {};
+    if (layout_ == Layout::words)
+      throw file_.broken(words_.line(), "the file goes on after its last face",
+                         "export the mesh again");
+    return "what follows the last face is not read: the file says fewer faces than it holds";
+  }
+
   const MeshFile& file_;
   Lines lines_;
+  Words words_;
+  Layout layout_;
+  int more_per_vertex_ = 0;  ///< words after the coordinates
+  bool has_counts_ = false;
 };
+
+/// Blanks in the place of comments, which end with their lines.
+std::string without_comments(std::string text) {
+  bool comment = false;
+  for (char& c : text) {
+    comment = c != '\n' && (comment || c == '#');
+    if (comment) c = ' ';
+  }
+  return text;
+}
 
 }  // namespace
 
-PolygonSoup read_off(const MeshFile& file) { return OffReader(file).soup(); }
+bool is_off_keyword(std::string_view word) {
+  const std::string_view kinds = word.substr(0, std::min(lower(word).find("off"), word.size()));
+  const std::string_view after = word.substr(std::min(kinds.size() + 3, word.size()));
+  return kinds.size() < word.size() && kinds.find_first_not_of("STCNn4stc") == kinds.npos &&
+         after.find_first_not_of("0123456789") == after.npos;
+}
+
+PolygonSoup read_off(const MeshFile& file) {
+  const std::string text = without_comments(file.content);
+  OffReader lines(file, text, Layout::lines);
+  try {
+    return lines.soup();
+  } catch (const Error&) {
+    try {
+      return OffReader(file, text, Layout::words).soup();
+    } catch (const Error&) {
+      if (!lines.has_counts()) throw;
+    }
+    throw;
+  }
+}
 
 }  // namespace sinew
