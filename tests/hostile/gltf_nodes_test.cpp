@@ -15,7 +15,7 @@ TEST_F(HostileGltf, OfWrongNodesIsRefused) {
   expect_refused_with("/nodes/0/translation", {0, 0, "1"}, "not a number");
   expect_refused_with("/nodes/0/rotation", {0, 0, 0, 0}, "nodes[0].rotation is of length 0");
   expect_refused_with("/nodes/0/matrix", std::vector<int>(16, 1), "does not end in the row");
-  expect_refused_with("/scenes/0/nodes", {0, 0}, "its scene holds node 0 twice");
+  expect_refused_with("/scenes/0/nodes", {0, 9}, "its scene names node 9");
   expect_refused_with("/scenes/0/nodes", Json::array(), "its scene shows no triangles");
 }
 
@@ -32,7 +32,6 @@ TEST_F(HostileGltf, OfNodesInCirclesIsRefused) {
 TEST_F(HostileGltf, OfANodeWithTwoParentsIsRefused) {
   Gltf gltf = one_tetrahedron();
   gltf.node({{"children", {0}}});
-  expect_refused(gltf, "its scene holds node 0 twice");
   gltf.node({{"children", {0}}});
   expect_refused(gltf, "node 0 has two parents");
   gltf.json["nodes"][2]["children"] = {1, 1};
@@ -116,7 +115,8 @@ TEST_F(HostileGltf, OfBadSparseDataIsRefused) {
   expect_refused(with("/values", nullptr), "values is 'null', not an object");
   gltf.bytes.replace(96, 4, word(0));
   gltf.json["accessors"][0].erase("bufferView");
-  expect_refused(gltf, "are sparse data over nothing; export without sparse accessors");
+  gltf.json["accessors"][0]["count"] = 2000000000;
+  expect_refused(gltf, "accessors[0] has 2000000000 elements, more than its file has");
 }
 
 TEST_F(HostileGltf, WhoseBufferIsElsewhereIsRefused) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/io/gltf/rig.h>
+
+#include <numeric>
+
 #include <sinew/scene/rig.h>
 
 #include <sinew/io/gltf/geometry.h>
 #include <sinew/rig/motion.h>
+#include <sinew/rig/motion_checks.h>
 #include <sinew/settings/read_scene.h>
 #include "io/gltf_rigs.h"
 #include "support/expect_error.h"
@@ -209,6 +213,50 @@ TEST_F(ReadGltfRig, KnowsDurationAndFrames) {
   EXPECT_EQ(read(gltf).rig.clips[0].duration, 2);
   add_keys<Vec3>(gltf, 1, "translation", "LINEAR", {0.1}, {{0, 0, 1}});
   EXPECT_EQ(read(gltf).rig.clips[0].frames, 0);
+  Gltf late = bending_bar();
+  late.json["animations"][0]["samplers"][0]["input"] = late.floats({10, 11}, "SCALAR");
+  const Clip clip = read(late).rig.clips[0];
+  EXPECT_EQ(clip.duration, 1);
+  EXPECT_EQ(first_key(clip.motion), 10);
+}
+
+TEST_F(ReadGltfRig, TakesSparseJointsOverNothing) {
+  const SkinnedRig whole = read(bending_bar());
+  Gltf gltf = bending_bar();
+  Json& primitive = gltf.json["meshes"][0]["primitives"][0]["attributes"];
+  const int joints = primitive["JOINTS_0"];
+  const Json was = gltf.json["accessors"][joints];
+  std::vector<std::uint8_t> all(was["count"].get<std::size_t>());
+  std::iota(all.begin(), all.end(), std::uint8_t{0});
+  const int at = gltf.view(raw(all));
+  Json& accessor = gltf.json["accessors"][joints];
+  accessor["sparse"] = {{"count", all.size()},
+                        {"indices", {{"bufferView", at}, {"componentType", 5121}}},
+                        {"values", {{"bufferView", was["bufferView"]}}}};
+  accessor.erase("bufferView");
+  const auto bent = [](const SkinnedRig& rig) { return skinned_corners(rig, pose_of(rig, 1)); };
+  EXPECT_EQ(bent(read(gltf)), bent(whole));
+  accessor["sparse"]["count"] = 1;  // all others have joint 0
+  EXPECT_NE(bent(read(gltf)), bent(whole));
+}
+
+TEST_F(ReadGltfRig, TakesANodeThatIsListedBesideItsParent) {
+  Gltf gltf = bending_bar();
+  const SkinnedRig whole = read(gltf);
+  Json& roots = gltf.json["scenes"][0]["nodes"];
+  for (int i = 0; i < static_cast<int>(gltf.json["nodes"].size()); ++i) roots.push_back(i);
+  EXPECT_EQ(read(gltf).mesh.points, whole.mesh.points);
+  EXPECT_EQ(read(gltf).rig.skeleton.size(), whole.rig.skeleton.size());
+}
+
+TEST_F(ReadGltfRig, TellsOfVerticesWithoutWeights) {
+  Gltf gltf = bending_bar();
+  EXPECT_TRUE(read(gltf).rig.warnings.empty());
+  const int weights = gltf.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"];
+  const int view = gltf.json["accessors"][weights]["bufferView"];
+  const std::size_t begin = gltf.json["bufferViews"][view]["byteOffset"];
+  gltf.bytes.replace(begin, 16, std::string(16, '\0'));
+  EXPECT_NE(read(gltf).rig.warnings.at(0).find(": 1 of "), std::string::npos);
 }
 
 TEST_F(ReadGltfRig, FindsClipsByName) {

@@ -11,6 +11,7 @@
 #include <sinew/inspection/mesh_info.h>
 #include <sinew/io/checksums.h>
 #include <sinew/rig/motion.h>
+#include <sinew/rig/motion_checks.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/body.h>
@@ -25,13 +26,19 @@ using Json = nlohmann::ordered_json;
 
 constexpr int min_samples = 200;  // of a clip, for its largest speed
 
+/// s before a clip moves.
+double wait_of(const Clip& clip) {
+  return std::max(0.0, first_key(clip.motion) - clip.motion.start);
+}
+
 /// The largest speed of any bone's head or tail in a clip, m/s.
 double largest_speed(const Skeleton& skeleton, const Clip& clip) {
+  const double wait = wait_of(clip);
   const int samples = std::max(min_samples, 2 * clip.frames);
   double fastest = 0;
   PoseCursor poses(skeleton, clip.motion);
   for (int sample = 0; sample <= samples; ++sample) {
-    const Pose& pose = poses.at(clip.duration * sample / samples);
+    const Pose& pose = poses.at(wait + clip.duration * sample / samples);
     for (std::size_t b = 0; b < pose.size(); ++b) {
       const double length = pose[b].stretch * skeleton.bones[b].length;
       const Vec3 tail = pose[b].frame.origin + length * pose[b].axis();
@@ -64,6 +71,7 @@ Json listed(const std::vector<Clip>& clips) {
     list.push_back({{"name", clip.name},
                     {"frames", clip.frames},
                     {"frame_time", clip.frame_time},
+                    {"begin", wait_of(clip)},
                     {"duration", clip.duration}});
   return list;
 }
@@ -80,6 +88,7 @@ void add_clip_info(const std::vector<Clip>& clips, Findings& results) {
   const Clip& first = clips.empty() ? none : clips.front();
   results.add("frames", first.frames);
   results.add("frame_time", first.frame_time, "s");
+  if (wait_of(first) > 0) results.add("begin", wait_of(first), "s");
   results.add("duration", first.duration, "s");
   for (const Clip& clip : clips) results.add_line("clip", clip.name);
   results.add_value("clips", listed(clips));
@@ -102,7 +111,7 @@ void add_rig_info(const Rig& rig, std::optional<double> radius, Findings& result
 
 Clip clip_of(Motion motion, std::string name, std::optional<double> frame_rate) {
   Clip clip{std::move(name), std::move(motion)};
-  clip.duration = clip_length(clip.motion);
+  clip.duration = clip_length(clip.motion) - wait_of(clip);
   if (!frame_rate) return clip;
   clip.frame_time = 1 / *frame_rate;
   clip.frames = static_cast<int>(std::lround(clip.duration * *frame_rate)) + 1;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include <sinew/core/text.h>
 #include <sinew/core/vector.h>
@@ -95,6 +96,17 @@ std::vector<double> moments_of(const Track& track, const Motion& motion) {
 }
 
 }  // namespace
+
+double first_key(const Motion& motion) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Track& track : motion.tracks) {
+    const auto visit = [&](const auto& curve) {
+      if (curve.times.size() > 1) first = std::min(first, curve.times.front());
+    };
+    visit(track.rotation), visit(track.translation), visit(track.twist), visit(track.stretch);
+  }
+  return std::isfinite(first) ? first : 0;
+}
 
 std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& motion) {
   std::vector<LimitPassed> all;

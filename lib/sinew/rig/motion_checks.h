@@ -25,6 +25,9 @@ struct Excess {
 /// Restricts `motion` of `bone` to its limits, with the rates of the restricted motion.
 Excess limit(const Bone& bone, LocalMotion& motion);
 
+/// The first key of a clip, s; 0 where no curve has several. All before it is one pose.
+double first_key(const Motion& motion);
+
 struct LimitPassed {
   int bone = no_bone;
   double time = 0;  ///< of the first excess, s of the scene

@@ -87,13 +87,17 @@ std::int64_t element_size(const GltfAccessor& accessor) {
   return std::int64_t{size_of(accessor.number)} * components_of(accessor.type);
 }
 
-void check_accessor(const GltfDocument& document, std::size_t index) {
+/// `bytes`: of all buffers; elements that are zero for want of a view take none.
+void check_accessor(const GltfDocument& document, std::size_t index, std::int64_t bytes) {
   const GltfAccessor& accessor = document.accessors[index];
   const std::string user = nth("accessors", index);
   const std::int64_t size = element_size(accessor);
   if (accessor.view >= 0)
     check_extent(document, user, accessor.view, accessor.offset, accessor.count, size);
   if (!accessor.sparse) return;
+  if (accessor.view < 0 && accessor.count * components_of(accessor.type) > bytes)
+    throw damaged_gltf(user + " has " + std::to_string(accessor.count) +
+                       " elements, more than its file has");
   const GltfSparse& sparse = *accessor.sparse;
   if (sparse.count > accessor.count || !counts(sparse.index_number))
     throw damaged_gltf(user + ".sparse does not fit it");
@@ -116,7 +120,8 @@ void check_sparse(const CheckedGltf& gltf, std::size_t index) {
 
 void check_accessors(const CheckedGltf& gltf) {
   const auto& accessors = gltf.document.accessors;
-  for (std::size_t i = 0; i < accessors.size(); ++i) check_accessor(gltf.document, i);
+  for (std::size_t i = 0; i < accessors.size(); ++i)
+    check_accessor(gltf.document, i, static_cast<std::int64_t>(gltf.bytes.size()));
   for (std::size_t i = 0; i < accessors.size(); ++i)
     if (accessors[i].sparse) check_sparse(gltf, i);
 }
@@ -182,16 +187,25 @@ std::vector<int> roots_of_scene(const GltfDocument& document, const GltfTree& tr
   return roots;
 }
 
-/// All nodes of the scene, parents first; its topmost ones must have no parents and occur once.
+/// All nodes of the scene, each once, parents first. Some exporters list nodes beside those that
+/// they are children of.
 std::vector<int> shown_nodes(const GltfDocument& document, const GltfTree& tree) {
-  std::vector<int> shown = roots_of_scene(document, tree);
-  std::vector<bool> listed(document.nodes.size());
-  for (const int root : shown) {
+  std::vector<bool> within(document.nodes.size());  // the list, or below one of it
+  const std::vector<int> listed = roots_of_scene(document, tree);
+  for (const int root : listed) {
     check_index(root, document.nodes, "its scene", "node");
-    const auto at = static_cast<std::size_t>(root);
-    if (tree.parents[at] >= 0 || listed[at])
-      throw damaged_gltf("its scene holds node " + std::to_string(root) + " twice");
-    listed[at] = true;
+    within[static_cast<std::size_t>(root)] = true;
+  }
+  std::vector<bool> taken(document.nodes.size());
+  for (const int node : tree.order) {
+    const auto at = static_cast<std::size_t>(node);
+    taken[at] = tree.parents[at] >= 0 && within[static_cast<std::size_t>(tree.parents[at])];
+    within[at] = within[at] || taken[at];
+  }
+  std::vector<int> shown;
+  for (const int root : listed) {
+    if (!taken[static_cast<std::size_t>(root)]) shown.push_back(root);
+    taken[static_cast<std::size_t>(root)] = true;
   }
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const auto& children = document.nodes[static_cast<std::size_t>(shown[i])].children;
@@ -223,9 +237,7 @@ CheckedGltf checked(const GltfContainer& container, const std::filesystem::path&
 const GltfAccessor& accessor_of(const GltfDocument& document, int index, const std::string& user) {
   check_index(index, document.accessors, user, "accessor");
   const GltfAccessor& accessor = document.accessors[static_cast<std::size_t>(index)];
-  if (accessor.view >= 0) return accessor;
-  if (accessor.sparse)
-    throw bad_input(user + " are sparse data over nothing", "export without sparse accessors");
+  if (accessor.view >= 0 || accessor.sparse) return accessor;
   throw bad_input(user + " have no data", "export without mesh compression");
 }
 

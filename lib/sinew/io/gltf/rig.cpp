@@ -99,7 +99,7 @@ Clip clip_of(const CheckedGltf& gltf, const GltfBindPose& bind, std::size_t anim
   const GltfNodeMotion nodes = gltf_node_motion(gltf, animation);
   Clip clip;
   clip.motion = joint_motion(bind, gltf.tree, nodes, rate);
-  if (!nodes.times.empty()) clip.duration = nodes.times.back();
+  if (!nodes.times.empty()) clip.duration = nodes.times.back() - nodes.times.front();
   count_frames(nodes.times, clip);
   return clip;
 }
@@ -212,6 +212,15 @@ std::vector<GltfShape> skinned_shapes(const CheckedGltf& gltf, const GltfBindPos
   return shapes;
 }
 
+void warn_of_weightless(SkinnedRig& rig) {
+  const std::size_t all = rig.mesh.points.size();
+  std::size_t weightless = 0;
+  for (std::size_t i = 0; i < all; ++i) weightless += rig.weights.of(i).empty();
+  if (weightless > 0)
+    rig.rig.warnings.push_back(std::to_string(weightless) + " of " + std::to_string(all) +
+                               " vertices of its skin have no weights above 0, and follow no bone");
+}
+
 SkinnedRig rig_in(const CheckedGltf& gltf, const GltfRigOptions& options) {
   if (gltf.document.skins.empty())
     throw bad_input("it has no skin", "export it with its armature and skinning");
@@ -223,6 +232,7 @@ SkinnedRig rig_in(const CheckedGltf& gltf, const GltfRigOptions& options) {
   GltfTriangles triangles = gltf_triangles(gltf, skinned_shapes(gltf, bind));
   rig.weights = skin_weights(gltf, bind, triangles.sources);
   rig.mesh = std::move(triangles.soup);
+  warn_of_weightless(rig);
   return rig;
 }
 
@@ -232,7 +242,10 @@ SkinnedRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions
   try {
     const CheckedGltf gltf = checked_gltf(path);
     try {
-      return rig_in(gltf, options);
+      SkinnedRig rig = rig_in(gltf, options);
+      for (std::string& warning : rig.rig.warnings)
+        warning.insert(0, Place{path.string()}.text() + ": ");
+      return rig;
     } catch (const Error& error) {
       throw error.with_context({path.string()});
     }

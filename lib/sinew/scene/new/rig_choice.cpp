@@ -96,18 +96,6 @@ void fit_if_better(const Surface& surface, const Skeleton& skeleton, Settings& s
   placing.fraction = fraction;
 }
 
-/// s of the clip; all that comes before it is one pose.
-double first_key(const Motion& motion) {
-  double first = std::numeric_limits<double>::infinity();
-  for (const Track& track : motion.tracks) {
-    const auto visit = [&](const auto& curve) {
-      if (curve.times.size() > 1) first = std::min(first, curve.times.front());
-    };
-    visit(track.rotation), visit(track.translation), visit(track.twist), visit(track.stretch);
-  }
-  return std::isfinite(first) ? first : 0;
-}
-
 /// Whether a value differs from key to key, rather than being one pose.
 template <typename Curve, typename Distance>
 bool changes(const Curve& curve, double threshold, Distance&& distance) {
@@ -152,7 +140,8 @@ void choose_clip(const Rig& rig, const Clip& clip, NewChoices& choices) {
   const double preroll = choices.begins_posed ? 0 : preroll_for(rig.skeleton, clip.motion);
   const double begin = first_key(clip.motion);
   if (begin > min_wait) motion.start = begin;
-  const double length = clip.duration - motion.start, played = std::min(length, longest_clip);
+  const double length = begin + clip.duration - motion.start,
+               played = std::min(length, longest_clip);
   choices.clip_note = "The clip " + shown(clip.name) + " of the file, " + three_digits(length) +
                       " s long" + (motion.start > 0 ? " from its first key" : "");
   if (played < length) choices.clip_note += "; solver.duration shows its beginning";

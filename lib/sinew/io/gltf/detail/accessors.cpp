@@ -75,9 +75,11 @@ std::vector<double> gltf_numbers(const CheckedGltf& gltf, int index) {
   const GltfAccessor& accessor = gltf.document.accessors[static_cast<std::size_t>(index)];
   const int parts = components_of(accessor.type);
   std::vector<double> numbers(static_cast<std::size_t>(accessor.count * parts));
-  const GltfElements elements(gltf, accessor);
-  for (std::int64_t i = 0; i < accessor.count; ++i)
-    elements.put(i, accessor.normalized, numbers.data() + i * parts);
+  if (accessor.view >= 0) {  // else they are zero
+    const GltfElements elements(gltf, accessor);
+    for (std::int64_t i = 0; i < accessor.count; ++i)
+      elements.put(i, accessor.normalized, numbers.data() + i * parts);
+  }
   if (accessor.sparse) put_sparse(gltf, accessor, numbers.data());
   return numbers;
 }
