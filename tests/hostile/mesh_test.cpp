@@ -282,8 +282,8 @@ TEST(Ply, SaysWhatIsWrong) {
   expect_refused("a.ply",
                  "ply\nformat ascii 1.0\nelement vertex 4\n" + xyz +
                      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
-                     points + "4 0 1 2 3\n",
-                 "triangle strips");
+                     points + "5 0 1 2 -1 4\n",
+                 "a face names vertex 4 of 4");
 }
 
 TEST(Ply, BelievesNoLengthOfABinaryList) {

@@ -251,6 +251,31 @@ TEST(Read, TakesPlyWithNumbersOfAnyType) {
     }
 }
 
+TEST(Read, TakesPlyWithTriangleStrips) {
+  const Folder folder;
+  std::string text = mesh_files::ply(shapes::tetrahedron());
+  text.replace(text.find("element face 4"), std::string::npos,
+               "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+               "0 0 0\n1 0 0\n0 1 0\n0 0 1\n13 0 2 1 3 -1 -1 1 -1 2 0 3 -1 2\n");
+  const std::vector<std::vector<int>> expected = {{0, 2, 1}, {2, 3, 1}, {2, 0, 3}};
+  EXPECT_EQ(read_polygons(folder.file("a.ply", text)).polygons, expected);
+}
+
+TEST(Read, TakesPlyWithLinesLongerThanItsHeaderSays) {
+  const Folder folder;
+  const auto soup = shapes::tetrahedron();
+  std::string text = mesh_files::ply(soup), longer;
+  const std::size_t body = text.find("end_header\n") + 11;
+  for (const char c : text.substr(body))
+    longer += c == '\n' ? std::string(" 7 7\n") : std::string(1, c);
+  const PolygonSoup read = read_polygons(folder.file("a.ply", text.substr(0, body) + longer));
+  EXPECT_EQ(read.points, soup.points);
+  EXPECT_EQ(read.polygons, soup.polygons);
+  EXPECT_NE(read.warning.find("8 lines are longer"), std::string::npos) << read.warning;
+  std::replace(text.begin() + static_cast<std::ptrdiff_t>(body), text.end(), ' ', '\n');
+  EXPECT_EQ(read_polygons(folder.file("b.ply", text)).polygons, soup.polygons);
+}
+
 TEST(Read, ScalesAndWelds) {
   const Folder folder;
   auto torn = shapes::burst(shapes::tetrahedron(1000));

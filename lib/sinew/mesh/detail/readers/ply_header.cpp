@@ -131,10 +131,8 @@ void find_mesh(const MeshFile& file, PlyHeader& header) {
     if (element.properties.empty() && element.count > 0)
       throw file.broken(0, "the element " + shown(element.name) + " has no properties",
                         "export the mesh again as PLY");
-    if (element.name == "tristrips")
-      throw file.broken(0, "triangle strips cannot be read", "export the mesh as single triangles");
     if (element.vertices()) vertices += element.count, find_coordinates(file, element);
-    if (element.faces()) faces += element.count, find_corners(file, element);
+    if (element.faces() || element.strips()) faces += element.count, find_corners(file, element);
   }
   if (vertices == 0 || faces == 0)
     throw file.broken(0, vertices ? "there are no faces, only points" : "there are no vertices",

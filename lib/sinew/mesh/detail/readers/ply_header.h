@@ -39,6 +39,7 @@ struct PlyElement {
 
   bool vertices() const { return name == "vertex" || name == "vertices"; }
   bool faces() const { return name == "face" || name == "faces"; }
+  bool strips() const { return name == "tristrips"; }
   PlyProperty* find(std::string_view property);
 };
 
@@ -50,7 +51,7 @@ struct PlyHeader {
 };
 
 /// Reads and checks the header: vertices have x, y, z, faces a list of integers vertex_indices (or
-/// vertex_index); any other elements and properties are allowed.
+/// vertex_index), and so do triangle strips; any other elements and properties are allowed.
 PlyHeader ply_header(const MeshFile& file);
 
 }  // namespace sinew

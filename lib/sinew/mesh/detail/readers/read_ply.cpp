@@ -10,11 +10,35 @@
 namespace sinew {
 namespace {
 
-/// The numbers of a text body.
+std::string_view body_of(const MeshFile& file, const PlyHeader& header) {
+  return std::string_view(file.content).substr(header.size);
+}
+
+/// The numbers of a text body: each element in a line of its own, or all one after the other.
 class TextBody {
  public:
-  TextBody(const MeshFile& file, const PlyHeader& header)
-      : file_(file), words_(std::string_view(file.content).substr(header.size), header.lines + 1) {}
+  TextBody(const MeshFile& file, const PlyHeader& header, bool by_lines)
+      : file_(file),
+        lines_(body_of(file, header)),
+        words_(by_lines ? std::string_view() : lines_.rest(), header.lines + 1),
+        before_(header.lines),
+        by_lines_(by_lines) {}
+
+  void begin_element() {
+    if (!by_lines_) return;
+    longer_ += !words_.next().empty();
+    while (lines_.next())
+      if (!Words(lines_.line()).next().empty()) break;
+    words_ = Words(lines_.line(), before_ + lines_.number());
+  }
+
+  /// What is told after the last element.
+  std::string warning() {
+    longer_ += by_lines_ && !words_.next().empty();
+    if (longer_ == 0) return {};
+    return std::to_string(longer_) +
+           " lines are longer than the header says; their last words are not read";
+  }
 
   std::int64_t integer(const PlyType& type) {
     const std::string_view word = next();
@@ -40,21 +64,24 @@ class TextBody {
  private:
   std::string_view next() {
     const std::string_view word = words_.next();
-    if (word.empty()) throw broken("the file ends early");
+    if (word.empty())
+      throw broken(by_lines_ ? "the line is shorter than the header says" : "the file ends early");
     return word;
   }
 
   const MeshFile& file_;
+  Lines lines_;
   Words words_;
+  int before_;  // lines of the header
+  bool by_lines_;
+  std::int64_t longer_ = 0;  // lines
 };
 
 /// The numbers of a binary body. Assumes a little-endian machine.
 class BinaryBody {
  public:
   BinaryBody(const MeshFile& file, const PlyHeader& header)
-      : file_(file),
-        rest_(std::string_view(file.content).substr(header.size)),
-        swapped_(header.encoding == PlyEncoding::big) {}
+      : file_(file), rest_(body_of(file, header)), swapped_(header.encoding == PlyEncoding::big) {}
 
   std::int64_t integer(const PlyType& type) {
     const auto value = next<std::int64_t>(type);
@@ -70,6 +97,8 @@ class BinaryBody {
   }
 
   void skip(const PlyType& type) { take(type); }
+  void begin_element() {}
+  std::string warning() { return {}; }
 
   Error broken(const std::string& what) const {
     return file_.broken(0, what, "export the mesh again as PLY");
@@ -111,9 +140,11 @@ class BodyReader {
   PolygonSoup soup() {
     for (const PlyElement& element : header_.elements)
       for (std::int64_t i = 0; i < element.count; ++i) {
+        body_.begin_element();
         if (element.vertices()) soup_.points.emplace_back(Vec3::Zero());
         for (const PlyProperty& property : element.properties) read(element, property);
       }
+    soup_.warning = body_.warning();
     return std::move(soup_);
   }
 
@@ -125,6 +156,8 @@ class BodyReader {
       soup_.points.back()[property.axis] = body_.coordinate(*property.type);
     else if (element.faces() && property.corners)
       face(*property.type, count);
+    else if (element.strips() && property.corners)
+      strips(*property.type, count);
     else
       for (std::int64_t i = 0; i < count; ++i) body_.skip(*property.type);
   }
@@ -132,14 +165,32 @@ class BodyReader {
   void face(const PlyType& type, std::int64_t count) {
     if (count < 3) throw body_.broken("a face has " + std::to_string(count) + " corners");
     corners_.clear();
-    for (std::int64_t i = 0; i < count; ++i) {
-      const std::int64_t corner = body_.integer(type);
-      if (corner < 0 || corner >= vertices_)
-        throw body_.broken("a face names vertex " + std::to_string(corner) + " of " +
-                           std::to_string(vertices_));
-      corners_.push_back(static_cast<int>(corner));
-    }
+    for (std::int64_t i = 0; i < count; ++i) corners_.push_back(corner(body_.integer(type)));
     soup_.polygons.emplace_back(corners_.begin(), corners_.end());
+  }
+
+  /// Triangle strips with -1 between them; every second triangle is turned the other way.
+  void strips(const PlyType& type, std::int64_t count) {
+    corners_.clear();
+    for (std::int64_t i = 0; i < count; ++i) {
+      const std::int64_t next = body_.integer(type);
+      if (next == -1) {
+        corners_.clear();
+        continue;
+      }
+      corners_.push_back(corner(next));
+      if (corners_.size() < 3) continue;
+      const std::size_t last = corners_.size() - 1, odd = last % 2;
+      soup_.polygons.push_back(
+          {corners_[last - 2], corners_[last - 1 + odd], corners_[last - odd]});
+    }
+  }
+
+  int corner(std::int64_t corner) const {
+    if (corner < 0 || corner >= vertices_)
+      throw body_.broken("a face names vertex " + std::to_string(corner) + " of " +
+                         std::to_string(vertices_));
+    return static_cast<int>(corner);
   }
 
   const PlyHeader& header_;
@@ -149,12 +200,38 @@ class BodyReader {
   std::int64_t vertices_ = 0;
 };
 
+/// Whether the body has as many lines as elements.
+bool has_line_of_each(const MeshFile& file, const PlyHeader& header) {
+  std::int64_t left = 0;
+  for (const PlyElement& element : header.elements) left += element.count;
+  for (Lines lines(body_of(file, header)); left >= 0 && lines.next();)
+    left -= !Words(lines.line()).next().empty();
+  return left == 0;
+}
+
+/// Lines may be longer than the header says; or no line is that of an element.
+PolygonSoup read_text(const MeshFile& file, const PlyHeader& header) {
+  const auto read = [&](bool by_lines) {
+    return BodyReader(header, TextBody(file, header, by_lines)).soup();
+  };
+  if (!has_line_of_each(file, header)) return read(false);
+  try {
+    return read(true);
+  } catch (const Error&) {
+    try {
+      return read(false);
+    } catch (const Error&) {
+    }
+    throw;
+  }
+}
+
 }  // namespace
 
 PolygonSoup read_ply(const MeshFile& file) {
   const PlyHeader header = ply_header(file);
   PolygonSoup soup = header.encoding == PlyEncoding::ascii
-                         ? BodyReader(header, TextBody(file, header)).soup()
+                         ? read_text(file, header)
                          : BodyReader(header, BinaryBody(file, header)).soup();
   refuse_too_many_points(file, soup.points.size());
   return soup;
