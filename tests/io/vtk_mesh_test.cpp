@@ -174,6 +174,82 @@ TEST_F(VtkMesh, LegacyImagesAreLevelSets) {
   EXPECT_EQ(field.points, read.points);
 }
 
+/// Other arrays before the one that counts, of every kind that the format has.
+TEST_F(VtkMesh, LegacyImagesMayHaveTheirValuesAtCells) {
+  const std::string head = "DATASET STRUCTURED_POINTS\nDIMENSIONS 4 4 4\nSPACING 1 1 2\n";
+  std::string values, vectors, names;
+  for (int i = 0; i < 27; ++i)
+    (values += i == 13 ? "-1 " : "1 "), (vectors += "0 0 0\n"), (names += "a b\n");
+  const std::string field = "FIELD FieldData 2\nnames 1 27 string\n" + names + "d 1 27 float\n" +
+                            values + "\nMETADATA\nINFORMATION 0\n\n";
+  const std::string cells = "CELL_DATA 27\nVECTORS v double\n" + vectors + "COLOR_SCALARS c 3\n" +
+                            vectors + "LOOKUP_TABLE t 1\n0 0 0 1\n" + field;
+  const PolygonSoup read = soup("a.vtk", legacy(head + cells));
+  const PolygonSoup at_points = soup(
+      "b.vtk", legacy("DATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 3\nORIGIN .5 .5 1\nSPACING 1 1 2\n"
+                      "POINT_DATA 27\n" +
+                      field));
+  EXPECT_EQ(read.polygons.size(), 6u);
+  EXPECT_EQ(read.points, at_points.points);
+  std::string at_corners;
+  for (int i = 0; i < 64; ++i) at_corners += i == 21 || i == 22 ? "-1 " : "1 ";
+  const PolygonSoup both = soup("c.vtk", legacy(head + cells +
+                                                "POINT_DATA 64\nSCALARS d float\n"
+                                                "LOOKUP_TABLE default\n" +
+                                                at_corners));
+  EXPECT_EQ(both.polygons.size(), 10u);
+}
+
+TEST_F(VtkMesh, XmlImagesMayHaveTheirValuesAtCells) {
+  std::string values;
+  for (int i = 0; i < 27; ++i) values += i == 13 ? "-1 " : "1 ";
+  const PolygonSoup read =
+      soup("a.vti", xml("ImageData", " WholeExtent=\"0 3 0 3 0 3\"><Piece><CellData>" +
+                                         array("d", "Float64", values) + "</CellData></Piece>"));
+  EXPECT_EQ(read.polygons.size(), 6u);
+  EXPECT_EQ(bounds(read.points).center(), Vec3::Constant(1.5));
+}
+
+/// Two tetrahedra that share a face, the second twice: as it is, and as a copy or hidden.
+TEST_F(VtkMesh, GhostsAndHiddenCellsAreLeftOutAndCounted) {
+  const std::string piece =
+      grid_piece(unit_points, 5, "0 1 2 3 1 2 3 4 1 2 3 4", "4 8 12", "10 10 10", 3);
+  const auto flagged = [&](const std::string& name, const std::string& flags) {
+    const std::string data = "<CellData>" + array(name, "UInt8", flags) + "</CellData></Piece>";
+    return xml("UnstructuredGrid", '>' + piece.substr(0, piece.size() - 8) + data);
+  };
+  for (const std::string flags : {"0 0 1", "0 32 0", "0 33 2"}) {
+    const PolygonSoup read = soup("a.vtu", flagged("vtkGhostType", flags));
+    EXPECT_EQ(read.polygons.size(), 6u) << flags;
+    EXPECT_TRUE(contains(read.warning, "1 of 3")) << read.warning;
+  }
+  EXPECT_EQ(soup("a.vtu", flagged("vtkGhostLevels", "0 2 0")).polygons.size(), 6u);
+  EXPECT_EQ(soup("a.vtu", flagged("other", "0 1 0")).warning, "");
+  expect_refused("a.vtu", flagged("vtkGhostType", "1 1 32"), "all of its 3 cells");
+  const PolygonSoup polygons =
+      soup("a.vtp", xml("PolyData",
+                        "><Piece NumberOfPoints=\"5\" NumberOfVerts=\"1\" "
+                        "NumberOfPolys=\"2\"><Points>" +
+                            array("p", "Float32", unit_points, 3) + "</Points><Polys>" +
+                            array("connectivity", "Int64", "0 1 2 1 2 3") +
+                            array("offsets", "Int64", "3 6") + "</Polys><CellData>" +
+                            array("vtkGhostType", "UInt8", "1 0 1") + "</CellData></Piece>"));
+  EXPECT_EQ(polygons.polygons, (std::vector<std::vector<int>>{{0, 1, 2}}));
+  const PolygonSoup read =
+      soup("a.vtk",
+           legacy("DATASET POLYDATA\nPOINTS 5 double\n" + unit_points +
+                  "\nVERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2\n3 1 2 3\nCELL_DATA 3\nFIELD F 1\n"
+                  "vtkGhostType 1 3 unsigned_char\n0 32 0\n"));
+  EXPECT_EQ(read.polygons, (std::vector<std::vector<int>>{{1, 2, 3}}));
+}
+
+TEST_F(VtkMesh, SeveralMomentsAreTold) {
+  const std::string piece = grid_piece(unit_points, 5, "0 1 2 3", "4", "10", 1);
+  const PolygonSoup read =
+      soup("a.vtu", xml("UnstructuredGrid", " TimeValues=\"0 0.5 1\">" + piece));
+  EXPECT_TRUE(contains(read.warning, "3 moments, from '0' to '1' s")) << read.warning;
+}
+
 TEST_F(VtkMesh, MayBeginWithAByteOrderMark) {
   EXPECT_GT(soup("a.vti", "\xEF\xBB\xBF" + image(12, ball)).polygons.size(), 100u);
 }

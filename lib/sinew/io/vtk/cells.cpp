@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <string>
 #include <tuple>
@@ -232,6 +233,75 @@ std::vector<std::vector<int>> surface_of(const VtkCells& cells, std::size_t poin
         "none of its " + std::to_string(checked.size()) + " cells is a surface or a volume",
         "give a file with triangles, polygons or volume cells");
   return polygons;
+}
+
+namespace {
+
+bool is_left_out(std::uint8_t flags) {
+  constexpr int duplicate = 1, hidden = 32;
+  return (flags & (duplicate | hidden)) != 0;
+}
+
+/// Removes the cells that are left out. Returns their number.
+std::size_t drop_ghosts(VtkCells& cells) {
+  const std::size_t flagged =
+      std::min({cells.ghosts.size(), cells.types.size(), cells.ends.size()});
+  std::size_t kept = 0, dropped = 0;
+  std::int64_t begin = 0;
+  VtkCells shown{cells.types, cells.ends, {}};
+  for (std::size_t i = 0; i < cells.ends.size(); ++i) {
+    const std::int64_t end = cells.ends[i];
+    if (i < flagged && is_left_out(cells.ghosts[i])) {
+      ++dropped;
+    } else {
+      if (i < cells.types.size()) shown.types[kept] = cells.types[i];
+      if (begin >= 0 && begin <= end && end <= static_cast<std::int64_t>(cells.points.size()))
+        shown.points.insert(shown.points.end(), cells.points.begin() + begin,
+                            cells.points.begin() + end);
+      else
+        return 0;  // damaged: checked where the cells are read
+      shown.ends[kept++] = static_cast<std::int64_t>(shown.points.size());
+    }
+    begin = end;
+  }
+  if (dropped == 0) return 0;
+  shown.ends.resize(kept);
+  shown.types.resize(cells.types.size() - dropped);
+  cells = std::move(shown);
+  return dropped;
+}
+
+/// Pieces have points of their own where they meet: volume cells on both sides share a face.
+void join_equal_points(const Points& points, VtkCells& cells) {
+  std::map<std::array<double, 3>, std::int64_t> places;
+  std::vector<std::int64_t> first(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& p = points[i];
+    first[i] = places.emplace(std::array{p.x(), p.y(), p.z()}, i).first->second;
+  }
+  for (std::int64_t& id : cells.points)
+    if (id >= 0 && id < static_cast<std::int64_t>(first.size()))
+      id = first[static_cast<std::size_t>(id)];
+}
+
+}  // namespace
+
+void add_warning(PolygonSoup& soup, const std::string& warning) {
+  soup.warning += (soup.warning.empty() || warning.empty() ? "" : "; ") + warning;
+}
+
+PolygonSoup soup_of(Points points, VtkCells cells, bool pieces) {
+  const std::size_t all = cells.ends.size(), dropped = drop_ghosts(cells);
+  if (dropped > 0 && dropped == all)
+    throw bad_input("all of its " + std::to_string(all) + " cells are ghosts or hidden",
+                    "give the file that holds the cells themselves");
+  if (pieces || dropped > 0) join_equal_points(points, cells);
+  PolygonSoup soup{std::move(points), {}, {}};
+  soup.polygons = surface_of(cells, soup.points.size());
+  if (dropped > 0)
+    soup.warning = "cells that are left out, as copies of another piece's (ghosts) or hidden: " +
+                   std::to_string(dropped) + " of " + std::to_string(all);
+  return soup;
 }
 
 }  // namespace sinew

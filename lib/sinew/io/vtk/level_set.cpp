@@ -230,6 +230,11 @@ Error no_surface(double low, double high) {
                    "give distances that are negative on one side, or subtract a level from it");
 }
 
+void move_to_cells(LevelSet& image) {
+  for (int& size : image.size) --size;
+  image.origin += image.axes * Vec3::Constant(0.5);
+}
+
 PolygonSoup zero_level(const LevelSet& image) {
   check(image);
   const Padded padded(image);

@@ -128,6 +128,25 @@ class Reader {
     return values;
   }
 
+  void skip(std::uint64_t bytes) {
+    if (bytes > rest_.size()) throw damaged("it is cut short");
+    rest_.remove_prefix(bytes);
+  }
+
+  /// One text of an array: a line, or its length (in 1, 2, 4 or 8 bytes, as the highest two bits
+  /// say) and then its bytes.
+  void skip_text() {
+    if (!binary) return void(line());
+    if (rest_.empty()) throw damaged("it is cut short");
+    const std::size_t size = std::size_t{8} >> (static_cast<unsigned char>(rest_[0]) >> 6);
+    if (size > rest_.size()) throw damaged("it is cut short");
+    std::uint64_t length = static_cast<unsigned char>(rest_[0]) & 63;
+    for (std::size_t i = 1; i < size; ++i)
+      length = length << 8 | static_cast<unsigned char>(rest_[i]);
+    skip(size);
+    skip(length);
+  }
+
   /// Up to the next empty line.
   void skip_metadata() {
     line();
@@ -159,9 +178,36 @@ struct Content {
   Points points;
   VtkCells cells;
   std::vector<std::int64_t> types;
+  std::uint64_t others = 0;  ///< vertices and lines, which precede the cells in arrays of cells
   std::optional<LevelSet> image;
-  bool has_values = false;
+  bool at_points = false;  ///< whether the image's values are at its points
 };
+
+/// An array at points or cells, or of a field.
+struct Array {
+  std::string_view name;
+  std::uint64_t columns = 1;
+  std::vector<double> values = {};
+  std::size_t bytes = 0;
+};
+
+Array read_array(Reader& in, std::string_view name, std::string_view type, std::uint64_t rows,
+                 std::uint64_t columns) {
+  Array array{name, columns};
+  const std::size_t before = in.left();
+  if (type == "string") {
+    in.line();
+    if (columns > 0 && rows > in.left() / columns) throw damaged("it is cut short");
+    for (std::uint64_t i = 0; i < rows * columns; ++i) in.skip_text();
+  } else if (type == "bit" && in.binary) {
+    in.line();
+    in.skip((rows * columns + 7) / 8);
+  } else {
+    array.values = in.numbers(type == "bit" ? "char" : type, rows, columns);
+  }
+  array.bytes = before - in.left();
+  return array;
+}
 
 void add_cell(const std::int64_t* begin, const std::int64_t* end, int type, VtkCells& cells) {
   cells.points.insert(cells.points.end(), begin, end);
@@ -220,37 +266,55 @@ void read_points(Reader& in, Points& points) {
   }
 }
 
-/// Arrays of any number; the first of `rows` single values gives the image its own.
-void read_field(Reader& in, std::uint64_t rows, Content& content) {
-  in.word();  // its name
-  const std::uint64_t arrays = in.count();
-  for (std::uint64_t i = 0; i < arrays; ++i) {
-    if (in.word() == "METADATA") in.skip_metadata(), in.word();
-    const std::uint64_t columns = in.count(), count = in.count();
-    const std::string_view type = in.word();
-    if (type == "string") throw bad_input("it has arrays of texts", "write it without them");
-    auto values = in.numbers(type, count, columns);
-    if (!content.image || content.has_values || columns != 1 || count != rows) continue;
-    content.image->values = std::move(values);
-    content.has_values = true;
-  }
-}
-
-void read_scalars(Reader& in, std::uint64_t rows, Content& content) {
-  in.word();  // its name
-  const std::string_view type = in.word();
+Array read_scalars(Reader& in, std::uint64_t rows) {
+  const std::string_view name = in.word(), type = in.word();
   Reader after = in;
-  const std::string_view columns = after.word();
-  if (columns != "LOOKUP_TABLE") {
-    if (columns != "1") throw damaged("its scalars have several components");
-    in.word();
-  }
+  const std::uint64_t columns = after.word() == "LOOKUP_TABLE" ? 1 : in.count();
   if (in.word() != "LOOKUP_TABLE") throw damaged("its scalars have no LOOKUP_TABLE");
   in.word();
-  const std::size_t before = in.left();
-  content.image->values = in.numbers(type, rows);
-  content.image->bytes = before - in.left();
-  content.has_values = true;
+  return read_array(in, name, type, rows, columns);
+}
+
+/// Numbers that each row of an array of that kind has; 0: another keyword.
+std::uint64_t columns_of(std::string_view keyword) {
+  if (keyword == "GLOBAL_IDS" || keyword == "PEDIGREE_IDS" || keyword == "EDGE_FLAGS") return 1;
+  if (keyword == "VECTORS" || keyword == "NORMALS") return 3;
+  if (keyword == "TENSORS6") return 6;
+  return keyword == "TENSORS" ? 9 : 0;
+}
+
+/// Calls take(array) for each array of that keyword. False: it does not begin arrays.
+template <class Take>
+bool read_arrays(Reader& in, std::string_view keyword, std::uint64_t rows, const Take& take) {
+  const std::string_view color = in.binary ? "unsigned_char" : "float";
+  if (keyword == "SCALARS") {
+    take(read_scalars(in, rows));
+  } else if (const std::uint64_t columns = columns_of(keyword); columns > 0) {
+    const std::string_view name = in.word();
+    take(read_array(in, name, in.word(), rows, columns));
+  } else if (keyword == "TEXTURE_COORDINATES") {
+    const std::string_view name = in.word();
+    const std::uint64_t parts = in.count();
+    take(read_array(in, name, in.word(), rows, parts));
+  } else if (keyword == "COLOR_SCALARS" || keyword == "LOOKUP_TABLE") {
+    const std::string_view name = in.word();
+    const std::uint64_t size = in.count();
+    const bool table = keyword == "LOOKUP_TABLE";
+    const Array colors = read_array(in, name, color, table ? size : rows, table ? 4 : size);
+    if (!table) take(colors);
+  } else if (keyword == "FIELD") {
+    in.word();  // its name
+    const std::uint64_t arrays = in.count();
+    for (std::uint64_t i = 0; i < arrays; ++i) {
+      std::string_view name = in.word();
+      if (name == "METADATA") in.skip_metadata(), name = in.word();
+      const std::uint64_t parts = in.count(), count = in.count();
+      take(read_array(in, name, in.word(), count, parts));
+    }
+  } else {
+    return false;
+  }
+  return true;
 }
 
 Vec3 read_vector(Reader& in) {
@@ -267,17 +331,14 @@ void read_dimensions(Reader& in, LevelSet& image) {
   }
 }
 
-/// What follows the points of an image: the values at them. False: what does not concern it.
-bool read_of_image(Reader& in, std::string_view keyword, std::uint64_t rows, Content& content) {
-  LevelSet& image = *content.image;
+/// Where the samples of an image are. False: a keyword that is not known.
+bool read_of_image(Reader& in, std::string_view keyword, LevelSet& image) {
   if (keyword == "DIMENSIONS")
     read_dimensions(in, image);
   else if (keyword == "SPACING" || keyword == "ASPECT_RATIO")
     image.axes = read_vector(in).asDiagonal();
   else if (keyword == "ORIGIN")
     image.origin = read_vector(in);
-  else if (keyword == "SCALARS")
-    read_scalars(in, rows, content);
   else
     return false;
   return true;
@@ -293,7 +354,7 @@ bool read_of_grid(Reader& in, std::string_view keyword, double version, Content&
   else if (keyword == "TRIANGLE_STRIPS")
     read_cells(in, version, vtk_strip, content.cells);
   else if (keyword == "VERTICES" || keyword == "LINES")
-    read_cells(in, version, 0, unused);
+    read_cells(in, version, 0, unused), content.others += unused.ends.size();
   else if (keyword == "CELLS")
     read_cells(in, version, -1, content.cells);
   else if (keyword == "CELL_TYPES")
@@ -310,21 +371,66 @@ bool is_image(std::string_view dataset) {
                   "save its surface as .vtp: in ParaView, Extract Surface");
 }
 
+/// Takes the first single values of an image, those at its points before those at its cells.
+void take_of_image(const Array& array, bool cells, Content& content) {
+  if (array.columns != 1 || array.values.empty() || content.at_points) return;
+  LevelSet& image = *content.image;
+  if (cells && !image.values.empty()) return;
+  image.values = array.values;
+  image.bytes = array.bytes;
+  content.at_points = !cells;
+}
+
+void take_ghosts(const Array& array, Content& content) {
+  const bool old = array.name == old_ghost_array;
+  if (!old && array.name != ghost_array) return;
+  content.cells.ghosts.clear();
+  for (std::size_t i = content.others; i < array.values.size(); ++i)
+    content.cells.ghosts.push_back(
+        static_cast<std::uint8_t>(old ? array.values[i] > 0 : array.values[i]));
+}
+
+/// The arrays of points and cells. Those of a grid concern it only where they have flags: it needs
+/// no others, and keeps what was read where one of them is damaged or of an unknown kind.
+void read_data(Reader& in, std::string_view keyword, Content& content) {
+  bool cells = keyword == "CELL_DATA";
+  std::uint64_t rows = in.count();
+  while (!in.at_end() && !content.at_points) {
+    keyword = in.word();
+    if (keyword == "METADATA") {
+      in.skip_metadata();
+    } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+      cells = keyword == "CELL_DATA";
+      rows = in.count();
+    } else if (!read_arrays(in, keyword, rows, [&](const Array& array) {
+                 if (content.image) take_of_image(array, cells, content);
+                 if (!content.image && cells) take_ghosts(array, content);
+               })) {
+      throw damaged("it has an unknown word " + shown(keyword));
+    }
+  }
+}
+
+void read_data_of_grid(Reader& in, std::string_view keyword, Content& content) {
+  try {
+    read_data(in, keyword, content);
+  } catch (const Error&) {
+  }
+}
+
 Content content_of(Reader& in, double version, bool image) {
   Content content;
   if (image) content.image.emplace();
-  std::uint64_t rows = 0;
-  while (!in.at_end() && !content.has_values) {
+  while (!in.at_end()) {
     const std::string_view keyword = in.word();
     if (keyword == "METADATA") {
       in.skip_metadata();
     } else if (keyword == "FIELD") {
-      read_field(in, rows, content);
+      read_arrays(in, keyword, 0, [](const Array&) {});
     } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
-      if (!image) break;
-      rows = in.count();
-      if (keyword == "CELL_DATA") break;
-    } else if (!(image ? read_of_image(in, keyword, rows, content)
+      image ? read_data(in, keyword, content) : read_data_of_grid(in, keyword, content);
+      break;
+    } else if (!(image ? read_of_image(in, keyword, *content.image)
                        : read_of_grid(in, keyword, version, content))) {
       throw damaged("it has an unknown word " + shown(keyword));
     }
@@ -337,14 +443,13 @@ PolygonSoup surface_of(Content content) {
     VtkCells& cells = content.cells;
     for (const std::int64_t type : content.types)
       cells.types.push_back(std::in_range<int>(type) ? static_cast<int>(type) : -1);
-    PolygonSoup soup{std::move(content.points), {}, {}};
-    soup.polygons = surface_of(cells, soup.points.size());
-    return soup;
+    return soup_of(std::move(content.points), std::move(cells), false);
   }
-  const LevelSet& image = *content.image;
-  if (!content.has_values)
-    throw bad_input("the image has no scalars at its points",
+  LevelSet& image = *content.image;
+  if (image.values.empty())
+    throw bad_input("the image has no scalars at its points or cells",
                     "store the level set as the first scalars of its points");
+  if (!content.at_points) move_to_cells(image);
   const double samples = double(image.size[0]) * image.size[1] * image.size[2];
   if (samples != static_cast<double>(image.values.size()))
     throw damaged("the image has " + std::to_string(image.values.size()) + " values of " +

@@ -43,13 +43,6 @@ std::vector<std::int64_t> integers_of(const VtkXmlFile& file, PieceElements piec
   throw vtu_refused("array " + quoted(name) + " does not hold integers of 32 bits");
 }
 
-/// Their surface, and the points.
-PolygonSoup soup_of(Points points, const VtkCells& cells) {
-  PolygonSoup soup{std::move(points), {}, {}};
-  soup.polygons = surface_of(cells, soup.points.size());
-  return soup;
-}
-
 /// All pieces of a grid as one.
 struct Grid {
   Points points;
@@ -80,6 +73,24 @@ std::uint64_t count_if_any(const VtkXmlFile& file, const XmlElement& piece, cons
   return piece.attribute(name).empty() ? 0 : file.arrays.count(piece, name);
 }
 
+/// Flags of the last `count` cells of a piece, of which it has `before` others.
+void add_ghosts(const VtkXmlFile& file, PieceElements piece, std::uint64_t before,
+                std::uint64_t count, VtkCells& cells) {
+  cells.ghosts.resize(cells.ends.size() - count);
+  for (const std::string_view name : {ghost_array, old_ghost_array}) {
+    const XmlElement* array = array_of(file, piece, "Piece/CellData", name);
+    if (array == nullptr) continue;
+    const Column column = file.arrays.column(*array, before + count);
+    const auto* flags = std::get_if<std::vector<std::int32_t>>(&column.values);
+    if (flags == nullptr || flags->size() != before + count)
+      throw vtu_refused("array " + quoted(name) + " does not hold flags");
+    for (std::size_t i = before; i < flags->size(); ++i)
+      cells.ghosts.push_back(static_cast<std::uint8_t>(
+          name == ghost_array ? (*flags)[i] : static_cast<int>((*flags)[i] > 0)));
+    return;
+  }
+}
+
 void add_piece(const VtkXmlFile& file, PieceElements piece, Grid& grid) {
   const std::uint64_t count = file.arrays.count(piece.front(), "NumberOfPoints");
   const std::size_t first = grid.points.size();
@@ -94,34 +105,27 @@ void add_piece(const VtkXmlFile& file, PieceElements piece, Grid& grid) {
     else
       grid.points.insert(grid.points.end(), points.begin(), points.end());
   }
-  const auto add = [&](const char* group, const char* number, int type) {
-    add_cells(file, piece, std::string("Piece/") + group, count_if_any(file, piece.front(), number),
-              type, first, grid.cells);
+  const auto count_of = [&](const char* number) {
+    return count_if_any(file, piece.front(), number);
   };
-  if (file.type == "UnstructuredGrid") return add("Cells", "NumberOfCells", -1);
-  add("Polys", "NumberOfPolys", vtk_polygon);
-  add("Strips", "NumberOfStrips", vtk_strip);
-}
-
-/// Pieces have points of their own where they meet: volume cells on both sides share a face.
-void join_equal_points(Grid& grid) {
-  std::map<std::array<double, 3>, std::int64_t> places;
-  std::vector<std::int64_t> first(grid.points.size());
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
-    const Vec3& p = grid.points[i];
-    first[i] = places.emplace(std::array{p.x(), p.y(), p.z()}, i).first->second;
-  }
-  for (std::int64_t& id : grid.cells.points)
-    if (id >= 0 && id < static_cast<std::int64_t>(first.size()))
-      id = first[static_cast<std::size_t>(id)];
+  const auto add = [&](const char* group, const char* number, int type) {
+    add_cells(file, piece, std::string("Piece/") + group, count_of(number), type, first,
+              grid.cells);
+    return count_of(number);
+  };
+  if (file.type == "UnstructuredGrid")
+    return add_ghosts(file, piece, 0, add("Cells", "NumberOfCells", -1), grid.cells);
+  const std::uint64_t polygons = add("Polys", "NumberOfPolys", vtk_polygon),
+                      strips = add("Strips", "NumberOfStrips", vtk_strip);
+  add_ghosts(file, piece, count_of("NumberOfVerts") + count_of("NumberOfLines"), polygons + strips,
+             grid.cells);
 }
 
 PolygonSoup surface_of_grid(const VtkXmlFile& file) {
   Grid grid;
   const auto pieces = file.pieces();
   for (const PieceElements piece : pieces) add_piece(file, piece, grid);
-  if (pieces.size() > 1) join_equal_points(grid);
-  return soup_of(std::move(grid.points), grid.cells);
+  return soup_of(std::move(grid.points), std::move(grid.cells), pieces.size() > 1);
 }
 
 /// The numbers of an attribute; as many as `initial` has, which stay where there are none.
@@ -159,19 +163,20 @@ std::uint64_t read_extent(const VtkXmlFile& file, LevelSet& image) {
   return static_cast<std::uint64_t>(all);
 }
 
-/// Finds the active scalars, or the first array of one component.
-const XmlElement& scalars_of(const VtkXmlFile& file, PieceElements piece) {
+/// Finds the active scalars of points or cells, or their first array of one component; none:
+/// nullptr.
+const XmlElement* scalars_in(const VtkXmlFile& file, PieceElements piece,
+                             const std::string& group) {
   std::string_view active;
   for (const XmlElement& element : piece)
-    if (element.path == "VTKFile/ImageData/Piece/PointData") active = element.attribute("Scalars");
-  const XmlElement* named = array_of(file, piece, "Piece/PointData", active);
-  if (named != nullptr && !active.empty()) return *named;
-  for (const XmlElement* array : file.arrays_in(piece, "Piece/PointData")) {
-    const auto components = array->attribute("NumberOfComponents");
-    if (components.empty() || components == "1") return *array;
+    if (element.path == "VTKFile/ImageData/" + group) active = element.attribute("Scalars");
+  const XmlElement* named = array_of(file, piece, group, active);
+  if (named != nullptr && !active.empty()) return named;
+  for (const XmlElement* array : file.arrays_in(piece, group)) {
+    const auto components = array->attribute("NumberOfComponents"), name = array->attribute("Name");
+    if ((components.empty() || components == "1") && name != ghost_array) return array;
   }
-  throw bad_input("the image has no scalars at its points",
-                  "store the level set as point data; in ParaView, Cell Data to Point Data");
+  return nullptr;
 }
 
 PolygonSoup surface_of_image(const VtkXmlFile& file) {
@@ -179,19 +184,40 @@ PolygonSoup surface_of_image(const VtkXmlFile& file) {
   if (pieces.size() != 1)
     throw vtu_refused("the image has " + std::to_string(pieces.size()) + " pieces, not one");
   LevelSet image;
-  const std::uint64_t count = read_extent(file, image);
-  const XmlElement& array = scalars_of(file, pieces.front());
-  const Column scalars = file.arrays.column(array, count);
-  image.bytes = count * size_of_type(array);
+  std::uint64_t count = read_extent(file, image);
+  const XmlElement* array = scalars_in(file, pieces.front(), "Piece/PointData");
+  if (array == nullptr) {
+    array = scalars_in(file, pieces.front(), "Piece/CellData");
+    move_to_cells(image);
+    count = static_cast<std::uint64_t>(image.size[0]) * static_cast<std::uint64_t>(image.size[1]) *
+            static_cast<std::uint64_t>(image.size[2]);
+  }
+  if (array == nullptr)
+    throw bad_input("the image has no scalars at its points or cells",
+                    "store the level set as point data");
+  const Column scalars = file.arrays.column(*array, count);
+  image.bytes = count * size_of_type(*array);
   if (scalars.components != 1) throw vtu_refused("the image's scalars have several components");
   std::visit(
       [&](const auto& values) {
+        if (values.empty()) return;
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         if (*low >= 0 || *high < 0) throw no_surface(*low, *high);
         image.values.assign(values.begin(), values.end());
       },
       scalars.values);
   return zero_level(image);
+}
+
+/// What is told of a file with several moments; arrays of the first precede those of others.
+std::string moments_told(const VtkXmlFile& file) {
+  std::istringstream words{std::string(file.grid().attribute("TimeValues"))};
+  std::vector<std::string> times;
+  for (std::string word; words >> word;) times.push_back(word);
+  if (times.size() < 2) return {};
+  return "it holds " + std::to_string(times.size()) + " moments, from " + shown(times.front()) +
+         " to " + shown(times.back()) + " s, of which the first is read; save another as a file " +
+         "of its own";
 }
 
 PolygonSoup xml_surface(std::string_view text, const std::string& extension) {
@@ -205,7 +231,9 @@ PolygonSoup xml_surface(std::string_view text, const std::string& extension) {
   if (own->second != extension)
     throw bad_input("the extension is not the content's: it holds " + file.type,
                     "rename it to " + own->second);
-  return file.type == "ImageData" ? surface_of_image(file) : surface_of_grid(file);
+  PolygonSoup soup = file.type == "ImageData" ? surface_of_image(file) : surface_of_grid(file);
+  add_warning(soup, moments_told(file));
+  return soup;
 }
 
 PolygonSoup surface_in(std::string_view text, const std::string& extension) {

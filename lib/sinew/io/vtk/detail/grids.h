@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,7 +23,11 @@ struct VtkCells {
   std::vector<int> types;          ///< VTK's numbers, one per cell
   std::vector<std::int64_t> ends;  ///< of each cell's points, in `points`
   std::vector<std::int64_t> points;
+  std::vector<std::uint8_t> ghosts = {};  ///< VTK's flags of each cell, none of those at the end
 };
+
+// VTK's arrays of flags: of copies of another piece's cells, and of hidden ones.
+inline constexpr std::string_view ghost_array = "vtkGhostType", old_ghost_array = "vtkGhostLevels";
 
 // VTK's numbers of cells that polygons of a vtkPolyData have.
 inline constexpr int vtk_strip = 6, vtk_polygon = 7;
@@ -31,6 +36,13 @@ inline constexpr int vtk_strip = 6, vtk_polygon = 7;
 /// that are surfaces. The nodes at the middle of sides of quadratic cells become corners. Throws
 /// bad input for cells of other kinds, damaged ones, and where there is neither.
 std::vector<std::vector<int>> surface_of(const VtkCells& cells, std::size_t points);
+
+/// The surface and its points. Cells that are copies or hidden are left out, with a warning that
+/// counts them. `pieces`: points of several pieces, which meet at equal points of their own.
+PolygonSoup soup_of(Points points, VtkCells cells, bool pieces);
+
+/// Adds to what is told of a file.
+void add_warning(PolygonSoup& soup, const std::string& warning);
 
 // Images.
 
@@ -41,6 +53,9 @@ struct LevelSet {
   std::vector<double> values = {};  ///< the first axis varies fastest
   std::size_t bytes = 0;            ///< of the values in the file, uncompressed
 };
+
+/// Values at the centers of the cells of an image, which has a sample less along each axis.
+void move_to_cells(LevelSet& image);
 
 /// For an image whose values have one sign, from `low` to `high`.
 Error no_surface(double low, double high);
