@@ -59,11 +59,24 @@ class Corners {
   PolygonSoup& soup_;
 };
 
+/// Whether each row begins with the number of corners that follow, as in VTK's faces.
+bool has_counts(const WholeNumbers& rows) {
+  const py::ssize_t count = rows.shape(1) - 1;
+  if (count < 3 || rows.shape(0) < 2) return false;
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i)
+    if (rows.data()[i * rows.shape(1)] != count) return false;
+  return true;
+}
+
 void add_rows(const WholeNumbers& rows, PolygonSoup& soup) {
   Corners corners(soup);
   soup.polygons.reserve(static_cast<std::size_t>(rows.shape(0)));
+  const py::ssize_t first = has_counts(rows) ? 1 : 0;
   for (py::ssize_t i = 0; i < rows.shape(0); ++i)
-    corners.add(rows.data() + i * rows.shape(1), rows.shape(1));
+    corners.add(rows.data() + i * rows.shape(1) + first, rows.shape(1) - first);
+  if (first > 0)
+    soup.warning = "each of the faces begins with its number of corners, as VTK's do: " +
+                   std::to_string(rows.shape(1) - 1) + " is taken for no vertex";
 }
 
 /// VTK's form: a number of corners, then the corners.

@@ -158,9 +158,12 @@ void bind_meshes(py::module_& module) {
     return (*mesh).polygons.size();
   });
   bind_surface(module);
-  module.def("_polygons", [](const py::object& vertices, const py::object& faces) {
-    return SharedPolygons(polygons_of(vertices, faces));
-  });
+  module.def("_polygons",
+             [](const py::object& vertices, const py::object& faces, const std::string& warning) {
+               PolygonSoup soup = polygons_of(vertices, faces);
+               if (!warning.empty()) soup.warning = warning;
+               return SharedPolygons(std::move(soup));
+             });
   module.def("_surface", &prepared_surface);
   module.def("_diagnose", &diagnosis_of);
   module.def("_fill", [](const std::filesystem::path& mesh, const Values& values) {

@@ -68,6 +68,44 @@ class Arrays(SmallRun):
         for mesh in (reader.GetOutput(), meshio.read(path), like_trimesh):
             numpy.testing.assert_array_equal(sinew.fill(mesh, radius=0.01).points, expected)
 
+    def test_a_scene_of_trimesh_is_all_of_its_meshes(self):
+        V, F = tetrahedron()
+        part = lambda V, F: type("Trimesh", (), {"vertices": V, "faces": F})()
+        cloud = type("PointCloud", (), {"vertices": V})()
+        scene = lambda *parts: type("Scene", (), {"geometry": {}, "dump": lambda self: list(parts)})()
+        body = sinew.fill(scene(part(V, F), cloud, part(V + [2, 0, 0], F)), radius=0.05)
+        numpy.testing.assert_array_equal(body.points, sinew.fill(numpy.concatenate((V, V + [2, 0, 0])), numpy.concatenate((F, F + 4)),
+                                                                 radius=0.05).points)
+        with self.assertRaisesRegex(sinew.Error, "shows no meshes"):
+            sinew.fill(scene(cloud), radius=0.05)
+
+    def test_numbers_of_corners_before_them_are_told(self):
+        for V, F in (tetrahedron(), box()):
+            body = sinew.fill(V, numpy.insert(F, 0, F.shape[1], axis=1), radius=0.05)
+            numpy.testing.assert_array_equal(body.points, sinew.fill(V, F, radius=0.05).points)
+            self.assertIn("begins with its number of corners", body.warnings[0])
+
+    def test_ghosts_of_vtk_are_left_out_and_told(self):
+        from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+        V, F = tetrahedron()
+        mesh, points, polygons = vtkPolyData(), vtkPoints(), vtkCellArray()
+        points.SetData(numpy_to_vtk(V, deep=1))
+        polygons.SetData(3, numpy_to_vtkIdTypeArray(numpy.concatenate((F, [[0, 1, 2]])).ravel(), deep=1))
+        mesh.SetPoints(points)
+        mesh.SetPolys(polygons)
+        flags = numpy_to_vtk(numpy.array([0, 0, 2, 0, 32], numpy.uint8), deep=1)
+        flags.SetName("vtkGhostType")
+        mesh.GetCellData().AddArray(flags)
+        body = sinew.fill(mesh, radius=0.05)
+        numpy.testing.assert_array_equal(body.points, sinew.fill(V, F, radius=0.05).points)
+        self.assertIn("1 of 5", body.warnings[0])
+
+    def test_repaired_arrays_by_number(self):
+        mesh = sinew.repair(*tetrahedron())
+        self.assertEqual((len(mesh), mesh[0].shape, mesh[-1].shape), (2, (4, 3), (4, 3)))
+
     def test_polygons_and_lists_of_lists(self):
         V, quads = box()
         expected = sinew.fill(V, [[*face] for quad in quads for face in (quad[[0, 1, 2]], quad[[0, 2, 3]])], radius=0.05)

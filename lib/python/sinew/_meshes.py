@@ -11,6 +11,16 @@ from ._data import Dataset, particles_of_body, pyvista_of, trimesh_of
 from ._values import Findings, is_path, pairs
 
 
+def _shown(data):
+    """Of VTK's polygons, which are neither copies of another piece's nor hidden; None: all."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    flags = data.GetCellData().GetArray("vtkGhostType")
+    if not flags:
+        return None
+    before = data.GetNumberOfVerts() + data.GetNumberOfLines()
+    return vtk_to_numpy(flags)[before:before + data.GetNumberOfPolys()] & 33 == 0
+
+
 def _arrays_of_vtk(data):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     if not data.GetNumberOfPoints():
@@ -20,10 +30,15 @@ def _arrays_of_vtk(data):
         raise _sinew.Error("the mesh has triangle strips; apply vtkTriangleFilter first")
     corners = vtk_to_numpy(polygons.GetConnectivityArray())
     offsets = vtk_to_numpy(polygons.GetOffsetsArray())
-    sizes = numpy.diff(offsets)
+    sizes, shown, warning = numpy.diff(offsets), _shown(data), ""
+    if shown is not None and not shown.all():
+        corners, sizes = corners[numpy.repeat(shown, sizes)], sizes[shown]
+        offsets = numpy.concatenate(([0], numpy.cumsum(sizes)))
+        warning = (f"polygons that are left out, as copies of another piece's (ghosts) or hidden: {(~shown).sum()} of "
+                   f"{len(shown)}")
     if len(sizes) and (sizes == sizes[0]).all():
-        return points, corners.reshape(-1, sizes[0])
-    return points, numpy.insert(corners, offsets[:-1], sizes)
+        return points, corners.reshape(-1, sizes[0]), warning
+    return points, numpy.insert(corners, offsets[:-1], sizes), warning
 
 
 def _arrays_of_cells(mesh):
@@ -35,22 +50,35 @@ def _arrays_of_cells(mesh):
     return mesh.points, faces[0] if len(faces) == 1 else [list(face) for block in faces for face in block]
 
 
+def _arrays_of_scene(scene):
+    """Of a trimesh.Scene, all meshes where it shows them, as one."""
+    parts = [part for part in scene.dump() if len(getattr(part, "faces", ()))]
+    if not parts:
+        raise _sinew.Error("the Scene shows no meshes; give one with faces")
+    before = numpy.cumsum([0] + [len(part.vertices) for part in parts])
+    return (numpy.concatenate([part.vertices for part in parts]),
+            numpy.concatenate([part.faces + first for part, first in zip(parts, before)]))
+
+
 def polygons_of(mesh, faces=None):
-    """The polygons of arrays, or of a mesh of trimesh, VTK, PyVista or meshio."""
+    """The polygons of arrays, or of a mesh of trimesh (or its Scene), VTK, PyVista or meshio."""
     if is_path(mesh):
         raise _sinew.Error(f"{os.fspath(mesh)!r} is a path; give vertices and faces, or ask sinew.info() about the file")
+    warning = ""
     if faces is None:
         if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
             mesh, faces = mesh
         elif hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
             mesh, faces = mesh.vertices, mesh.faces
+        elif hasattr(mesh, "geometry") and hasattr(mesh, "dump"):
+            mesh, faces = _arrays_of_scene(mesh)
         elif hasattr(mesh, "GetPolys"):
-            mesh, faces = _arrays_of_vtk(mesh)
+            mesh, faces, warning = _arrays_of_vtk(mesh)
         elif hasattr(mesh, "GetClassName"):
             raise _sinew.Error(f"the mesh is a {mesh.GetClassName()}; extract its surface as vtkPolyData (vtkGeometryFilter)")
         elif hasattr(mesh, "points") and hasattr(mesh, "cells"):
             mesh, faces = _arrays_of_cells(mesh)
-    return _sinew._polygons(mesh, faces)
+    return _sinew._polygons(mesh, faces, warning)
 
 
 def _surface(mesh, faces, options):
@@ -91,6 +119,12 @@ class Mesh:
 
     def __iter__(self):
         return iter((self.vertices, self.faces))
+
+    def __len__(self):
+        return 2
+
+    def __getitem__(self, index):
+        return (self.vertices, self.faces)[index]
 
     def __repr__(self):
         state = "closed" if self.closed else "open"
@@ -175,7 +209,7 @@ def fill(mesh, faces=None, radius=None, count=None, density=None, **options):
     """Fills a mesh with closest-packed particles of this radius (m) or about this count: a Body.
 
     The mesh: vertices (n, 3) and faces (m, 3), (m, k) or a list of lists; a pair of them; the path of a file; a Scene,
-    which says itself how it is filled; or a mesh of trimesh, PyVista, VTK or meshio. Options are the keys of a scene's
+    which says itself how it is filled; or a mesh of trimesh (or its Scene), PyVista, VTK or meshio. Options are the keys of a scene's
     section body: unit="mm", packing="hcp", clearance=0.001, close_holes=True, ..."""
     kinds = _sinew._fill, _sinew._fill_polygons, _sinew._fill_scene
     return _by_settings(kinds, mesh, faces, radius, count, density, options)
