@@ -42,7 +42,8 @@ void declare(OptionList& list, Options& options) {
       .type_name("LIMIT")
       .repeatable();
   list.add("--reference", options.reference,
-           "Also measure the distance to the surfaces of this series; or compare with this result "
+           "Also measure the distance to the surfaces of this series (VTU or VTP in the PVD's "
+           "folder or below, one file for each time); or compare with this result "
            "of finite elements")
       .type_name("FILE.pvd|FILE.frd");
   list.add("--arrays", options.arrays,

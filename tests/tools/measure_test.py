@@ -111,6 +111,31 @@ class Measure(unittest.TestCase):
         for name in ["paper", "bonded"]:  # measuring them is not writing into them
             self.assertFalse((self.runs / name / "report.html").exists() and name == "bonded")
 
+    def test_a_reference_of_another_program_is_measured(self):
+        points, triangles = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], "0 2 1 0 1 3 1 2 3 2 0 3"
+        folder = self.out / "others"
+        (folder / "a").mkdir(parents=True)
+        data = '<DataArray type="{}" Name="{}" format="ascii">{}</DataArray>'.format
+        cells = lambda ids, ends: data("Int64", "connectivity", ids) + data("Int64", "offsets", ends)
+        places = '<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">' + " ".join(
+            str(x) for point in points for x in point) + "</DataArray></Points>"
+        piece = '<VTKFile type="{0}" byte_order="LittleEndian"><{0}><Piece NumberOfPoints="4" {1}>{2}{3}</Piece></{0}></VTKFile>'.format
+        (folder / "a/0.vtp").write_text(piece("PolyData", 'NumberOfPolys="4"', places, f"<Polys>{cells(triangles, '3 6 9 12')}</Polys>"))
+        (folder / "a/1.vtu").write_text(piece("UnstructuredGrid", 'NumberOfCells="5"', places, "<Cells>" + cells(
+            triangles + " 0 1", "3 6 9 12 14") + data("UInt8", "types", "5 5 5 5 3") + "</Cells>"))
+        row = '<DataSet timestep="{}" file="{}"/>'.format
+        pvd = "<VTKFile><Collection>{}</Collection></VTKFile>".format
+        found = []
+        for name in ("a\\0.vtp", "a/1.vtu"):
+            (folder / "s.pvd").write_text(pvd(row(0, name)))
+            sinew("measure", self.runs / "paper", "--reference", folder / "s.pvd", check=0)
+            found.append(rows(self.runs / "paper" / "metrics.csv")[0]["reference_hausdorff"])
+        self.assertEqual(found[0], found[1])
+        self.assertGreater(found[0], 0)
+        (folder / "s.pvd").write_text(pvd(2 * row(0, "a/0.vtp")))
+        done = sinew("measure", self.runs / "paper", "--reference", folder / "s.pvd", check=2)
+        self.assertIn("several parts", done.stderr)
+
     def test_limits_hold_for_the_differences(self):
         two = [self.runs / "paper", self.runs / "bonded", "-o", self.out]
         sinew("measure", *two, "--fail-on", "reference_particles_max > 1", check=0)
@@ -157,7 +182,7 @@ class Measure(unittest.TestCase):
         self.assertIn("scene.yaml", done.stderr)
         done = sinew("measure", run, "--reference", run / "bones.pvd")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("does not hold a surface", done.stderr)
+        self.assertIn("is a surface or a volume", done.stderr)
 
     def test_sections_csv_has_a_row_per_frame_and_section(self):
         run = self.copy_of("paper")

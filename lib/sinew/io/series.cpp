@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
@@ -39,8 +40,10 @@ PvdRow row_of(const XmlElement& element) {
   const auto& given = element.attributes;
   if (!given.contains("timestep") || !given.contains("file"))
     throw no_series("a DataSet lacks its timestep or file");
-  check_inside(given.at("file"));
-  return {time_of(given.at("timestep")), given.at("file")};
+  std::string file = given.at("file");
+  std::replace(file.begin(), file.end(), '\\', '/');  // as written on Windows
+  check_inside(file);
+  return {time_of(given.at("timestep")), std::move(file)};
 }
 
 std::vector<PvdRow> rows_of(const std::vector<XmlElement>& elements) {

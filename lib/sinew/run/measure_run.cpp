@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <sinew/core/dataset.h>
 #include <sinew/core/error.h>
+#include <sinew/core/text.h>
 #include <sinew/io/series.h>
+#include <sinew/io/vtk/vtk_mesh.h>
+#include <sinew/mesh/clean.h>
 #include <sinew/mesh/surface_gap.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/particle_values.h>
@@ -36,10 +40,22 @@ std::optional<Triangles> rigid_pose(const RunFiles& run, const FrameState& state
   return posed;
 }
 
-std::optional<Triangles> surface_at(const SurfaceSeries& series, double time) {
+template <class Read>
+std::optional<Triangles> surface_at(const SurfaceSeries& series, double time, const Read& read) {
   const auto frame = frame_at(series.rows, time);
   if (!frame) return std::nullopt;
-  return read_surface_frame(series.folder / series.rows[*frame].file);
+  return read(series.folder / series.rows[*frame].file);
+}
+
+/// Triangles as they are in the file, with all of its points; other polygons are cut into such.
+Triangles read_reference(const std::filesystem::path& file) {
+  const PolygonSoup soup = read_vtk_mesh(file);
+  Triangles surface{soup.points, {}};
+  for (const auto& polygon : soup.polygons) {
+    if (polygon.size() != 3) return clean(soup).triangles;
+    surface.faces.push_back({polygon[0], polygon[1], polygon[2]});
+  }
+  return surface;
 }
 
 struct GapMetrics {
@@ -71,6 +87,12 @@ SurfaceSeries open_surfaces(const std::filesystem::path& pvd) {
   SurfaceSeries series{pvd.parent_path(), read_pvd(pvd)};
   if (series.rows.empty())
     throw bad_input(Place{pvd.string()}, "names no frames", "give the surface.pvd of a run");
+  std::set<double> times;
+  for (const PvdRow& row : series.rows)
+    if (!times.insert(row.time).second)
+      throw bad_input(Place{pvd.string()},
+                      "has several parts at the time " + number_text(row.time) + " s",
+                      "save the surface as one part: in ParaView, Merge Blocks");
   return series;
 }
 
@@ -103,11 +125,11 @@ void add_surface_metrics(FrameMetrics& out, const RunFiles& run, const FrameStat
   add_gap(out, {&M::pose_hausdorff, &M::pose_distance_mean}, surface, rigid_pose(run, state));
   const std::filesystem::path& folder = run.folder.path;
   add_gap(out, {&M::lbs_hausdorff, &M::lbs_distance_mean}, surface,
-          surface_at({folder, run.lbs_rows}, state.time));
+          surface_at({folder, run.lbs_rows}, state.time, read_surface_frame));
   add_gap(out, {&M::dqs_hausdorff, &M::dqs_distance_mean}, surface,
-          surface_at({folder, run.dqs_rows}, state.time));
+          surface_at({folder, run.dqs_rows}, state.time, read_surface_frame));
   if (!reference) return;
-  const auto other = surface_at(*reference, state.time);
+  const auto other = surface_at(*reference, state.time, read_reference);
   add_gap(out, {&M::reference_hausdorff, &M::reference_distance_mean}, surface, other);
   if (other) add_point_distances(out, surface.surface(), *other);
 }

@@ -31,7 +31,7 @@ struct SurfaceSeries {
   std::vector<PvdRow> rows;
 };
 
-/// Throws bad input, naming the file, where it is not a PVD or has no rows.
+/// Throws bad input, naming the file, where it is not a PVD, has no rows or several of one time.
 SurfaceSeries open_surfaces(const std::filesystem::path& pvd);
 
 /// The frame of these rows at a time (s), within a millionth of a second.
