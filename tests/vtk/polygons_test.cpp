@@ -5,6 +5,7 @@
 
 #include <vtkAppendFilter.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkCubeSource.h>
 #include <vtkDoubleArray.h>
@@ -17,6 +18,7 @@
 #include <vtkSphereSource.h>
 #include <vtkStripper.h>
 #include <vtkTriangleFilter.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -127,6 +129,34 @@ TEST(PolygonsOfVtk, GridsGiveTheirOuterFaces) {
     EXPECT_NEAR(volume(surface), 1, 1e-12);
     EXPECT_NEAR(area(surface), 6, 1e-12);
   }
+}
+
+TEST(PolygonsOfVtk, GhostsAndHiddenCellsAreLeftOutAndCounted) {
+  vtkNew<vtkImageData> boxes;  // eight, twice
+  boxes->SetDimensions(3, 3, 3);
+  vtkNew<vtkAppendFilter> twice;
+  twice->AddInputData(boxes);
+  twice->AddInputData(boxes);
+  twice->MergePointsOn();
+  twice->Update();
+  vtkUnstructuredGrid* grid = twice->GetOutput();
+  vtkNew<vtkUnsignedCharArray> flags;
+  flags->SetName("vtkGhostType");
+  for (vtkIdType i = 0; i < 16; ++i) flags->InsertNextValue(i < 8 ? 0 : 1);
+  grid->GetCellData()->AddArray(flags);
+  const PolygonSoup copies = polygons_of(*grid);
+  EXPECT_EQ(copies.polygons.size(), 24u);
+  EXPECT_NEAR(volume(triangles_of(copies)), 8, 1e-12);
+  EXPECT_NE(copies.warning.find("8 of 16"), std::string::npos) << copies.warning;
+  const auto shape = square();
+  set_polygon(*shape, {0, 1, 2});
+  shape->GetPolys()->InsertNextCell({0, 2, 3});
+  vtkNew<vtkUnsignedCharArray> hidden;
+  hidden->SetName("vtkGhostType");
+  hidden->InsertNextValue(32);
+  hidden->InsertNextValue(2);
+  shape->GetCellData()->AddArray(hidden);
+  EXPECT_EQ(polygons_of(*shape).polygons, (std::vector<std::vector<int>>{{0, 2, 3}}));
 }
 
 /// A source that has each corner three times, for its normals.

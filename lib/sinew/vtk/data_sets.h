@@ -34,10 +34,11 @@ class vtkUnstructuredGrid;
 namespace sinew {
 
 /// Polygons and triangle strips of a vtkPolyData, in this order, with all of its points, of any
-/// precision; vertices and lines are left out. Of other data sets the surface that
-/// vtkDataSetSurfaceFilter finds: outer faces of volume cells, and surface cells. Throws bad input
-/// for a data set without polygons, points that are not finite, cells of fewer than 3 points or
-/// that name points which are not there, and for images, whose surface is that of a contour.
+/// precision; vertices and lines are left out, and, with a warning, ghosts and hidden cells. Of
+/// other data sets the surface that vtkDataSetSurfaceFilter finds: outer faces of volume cells, and
+/// surface cells. Throws bad input for a data set without polygons, points that are not finite,
+/// cells of fewer than 3 points or that name points which are not there, and for images, whose
+/// surface is that of a contour.
 PolygonSoup polygons_of(vtkDataSet& shape);
 
 // Data sets have the arrays of a run's files, in their order: names, names of components, units

@@ -3,11 +3,14 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <limits>
 #include <string>
@@ -44,7 +47,27 @@ void add_polygon(const Corners& polygon, PolygonSoup& soup) {
   for (vtkIdType k = 0; k < polygon.count; ++k) corners.push_back(polygon[k]);
 }
 
-void add_cells(vtkCellArray& cells, const std::string& kind,
+/// The cells of a vtkPolyData that are neither copies of another piece's nor hidden.
+class Shown {
+ public:
+  explicit Shown(vtkPolyData& shape) : flags_(shape.GetCellGhostArray()) {}
+
+  bool operator()(vtkIdType cell) {
+    constexpr int left_out = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
+    const bool shown = flags_ == nullptr || (flags_->GetValue(cell) & left_out) == 0;
+    dropped_ += !shown;
+    return shown;
+  }
+
+  std::size_t dropped() const { return dropped_; }
+
+ private:
+  vtkUnsignedCharArray* flags_;
+  std::size_t dropped_ = 0;
+};
+
+/// `first`: the number of the first of these cells among all.
+void add_cells(vtkCellArray& cells, const std::string& kind, vtkIdType first, Shown& shown,
                void (*add)(const Corners&, PolygonSoup&), PolygonSoup& soup) {
   const auto points = static_cast<vtkIdType>(soup.points.size());
   const auto each = vtk::TakeSmartPointer(cells.NewIterator());
@@ -58,7 +81,7 @@ void add_cells(vtkCellArray& cells, const std::string& kind,
       if (cell.ids[k] < 0 || cell.ids[k] >= points)
         throw damaged(name + " with point " + std::to_string(cell.ids[k]) + " of " +
                       std::to_string(points));
-    add(cell, soup);
+    if (shown(first + each->GetCurrentCellId())) add(cell, soup);
   }
 }
 
@@ -78,6 +101,12 @@ Points points_of(vtkPolyData& shape) {
   return points;
 }
 
+void tell_of_ghosts(std::size_t dropped, std::size_t all, PolygonSoup& soup) {
+  if (dropped > 0)
+    soup.warning = "cells that are left out, as copies of another piece's (ghosts) or hidden: " +
+                   std::to_string(dropped) + " of " + std::to_string(all);
+}
+
 PolygonSoup soup_of(vtkPolyData& shape) {
   const vtkIdType cells = shape.GetNumberOfPolys() + shape.GetNumberOfStrips();
   if (shape.GetNumberOfPoints() == 0 && cells == 0)
@@ -88,9 +117,22 @@ PolygonSoup soup_of(vtkPolyData& shape) {
                     "give the surface of the body: vertices and lines have no inside");
   PolygonSoup soup{points_of(shape), {}};
   soup.polygons.reserve(static_cast<std::size_t>(cells));
-  add_cells(*shape.GetPolys(), "polygon", add_polygon, soup);
-  add_cells(*shape.GetStrips(), "strip", add_strip, soup);
+  Shown shown(shape);
+  const vtkIdType before = shape.GetNumberOfVerts() + shape.GetNumberOfLines();
+  add_cells(*shape.GetPolys(), "polygon", before, shown, add_polygon, soup);
+  add_cells(*shape.GetStrips(), "strip", before + shape.GetNumberOfPolys(), shown, add_strip, soup);
+  tell_of_ghosts(shown.dropped(), static_cast<std::size_t>(cells), soup);
   return soup;
+}
+
+/// Without the cells that are copies of another piece's.
+vtkSmartPointer<vtkDataSet> own_cells(vtkDataSet& shape) {
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(&shape);
+  if (grid == nullptr || grid->GetCellGhostArray() == nullptr) return &shape;
+  auto own = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  own->ShallowCopy(grid);
+  own->RemoveGhostCells();
+  return own;
 }
 
 }  // namespace
@@ -101,9 +143,14 @@ PolygonSoup polygons_of(vtkDataSet& shape) {
     throw bad_input("the data set of VTK is an image, whose surface is a box",
                     "give a contour of it: vtkFlyingEdges3D or vtkContourFilter");
   vtkNew<vtkDataSetSurfaceFilter> surface;
-  surface->SetInputData(&shape);
+  const vtkSmartPointer<vtkDataSet> own = own_cells(shape);
+  surface->SetInputData(own);
   surface->Update();
-  return soup_of(*surface->GetOutput());
+  PolygonSoup soup = soup_of(*surface->GetOutput());
+  if (soup.warning.empty())
+    tell_of_ghosts(static_cast<std::size_t>(shape.GetNumberOfCells() - own->GetNumberOfCells()),
+                   static_cast<std::size_t>(shape.GetNumberOfCells()), soup);
+  return soup;
 }
 
 }  // namespace sinew
