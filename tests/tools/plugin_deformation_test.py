@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from plugin_support import *
 
 
-def cloud(positions, ids=None, name="id"):
+def cloud(positions, ids=None, name="id", ghosts=0):
     """Points of a source."""
     source = ProgrammableSource(OutputDataSetType="vtkPolyData")
     source.Script = (f"import numpy\nfrom vtkmodules.util.numpy_support import numpy_to_vtk\n"
@@ -21,6 +21,9 @@ def cloud(positions, ids=None, name="id"):
     if ids is not None:
         source.Script += (f"ids = numpy_to_vtk(numpy.array({list(map(int, ids))}), deep=1)\nids.SetName('{name}')\n"
                           "output.VTKObject.GetPointData().AddArray(ids)\n")
+    if ghosts:  # the last ones are copies of another piece's
+        source.Script += (f"flags = numpy_to_vtk((numpy.arange(len(values)) >= len(values) - {ghosts}).astype(numpy.uint8), deep=1)\n"
+                          "flags.SetName('vtkGhostType')\noutput.VTKObject.GetPointData().AddArray(flags)\n")
     return source
 
 
@@ -69,6 +72,14 @@ class Deformed(SmallRun):
         known = numpy.isfinite(found["J"])  # not at corners that have lost their neighbors
         self.assertGreater(known.sum(), 430)
         numpy.testing.assert_allclose(found["J"][known], 1.5 ** 3, rtol=1e-12)
+
+    def test_copies_of_another_piece_do_not_count(self):
+        now, ids = 1.2 * self.rest, list(range(500))
+        late = cloud(numpy.vstack((now, now[:50] + 5)), ids + ids[:50], ghosts=50)  # copies that lag behind
+        found = arrays(fetched(Deformation(Reference=cloud(self.rest, ids), Input=late)).GetPointData())
+        self.assertEqual(len(found["J"]), 500)
+        numpy.testing.assert_allclose(found["J"], 1.2 ** 3, rtol=1e-12)
+        numpy.testing.assert_array_equal(found["id"], ids)
 
     def test_what_tells_points_apart(self):
         order = self.random.permutation(500)

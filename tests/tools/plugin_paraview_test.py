@@ -295,7 +295,7 @@ class Packing(SmallRun):
             found = fetched(packing)
             surface = fetched(ExtractSurface(Input=clip))
             path = self.folder / "clipped.vtp"
-            sinew_paraview.packing.write_polygons(sinew_paraview.packing.polygons_of(surface), str(path))
+            sinew_paraview.packing.write_polygons(sinew_paraview.packing.polygons_of(surface)[0], str(path))
             numpy.testing.assert_array_equal(points(found), points(self.filled_by_command(path, "--radius", 0.04, *words)))
             self.assertEqual(field(found, "closed"), bool(words))
             self.assertLess(points(found)[:, 2].max(), 0.2 if words else 0.3)
@@ -317,9 +317,37 @@ class Packing(SmallRun):
         packing = ClosestPacking(Input=grouped, Radius=0.05)
         found = fetched(packing)
         path = self.folder / "all.vtp"
-        sinew_paraview.packing.write_polygons(sinew_paraview.packing.polygons_of(servermanager.Fetch(grouped)), str(path))
+        sinew_paraview.packing.write_polygons(sinew_paraview.packing.polygons_of(servermanager.Fetch(grouped))[0], str(path))
         numpy.testing.assert_array_equal(points(found), points(self.filled_by_command(path, "--radius", 0.05)))
         self.assertEqual(len(set(arrays(found.GetPointData())["component"])), 2)
+
+    def test_ghosts_and_hidden_cells_are_left_out_and_told(self):
+        script = """
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
+boxes, append = vtkImageData(), vtkAppendFilter()
+boxes.SetDimensions(5, 3, 3)
+for times in range(COPIES):
+    append.AddInputData(boxes)
+append.MergePointsOn()
+append.Update()
+output.VTKObject.ShallowCopy(append.GetOutput())
+flags = numpy.zeros(16 * COPIES, numpy.uint8)
+flags[16:] = 1
+flags[[0, 4, 8, 12]] = HIDDEN
+flags = numpy_to_vtk(flags, deep=1)
+flags.SetName("vtkGhostType")
+output.VTKObject.GetCellData().AddArray(flags)
+"""
+        for copies, hidden, left_out, volume in ((1, 0, 0, 16), (2, 0, 16, 16), (1, 32, 4, 12)):
+            source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid")
+            source.Script = script.replace("COPIES", str(copies)).replace("HIDDEN", str(hidden))
+            found = fetched(ClosestPacking(Input=source, Radius=0.2), port=1)
+            self.assertAlmostEqual(field(found, "volume"), volume, 9)
+            self.assertEqual(field(found, "open_edges"), 0)
+            self.assertIn(f"hidden: {left_out}", field(found, "warnings")) if left_out else None
 
     def test_a_contour_is_a_surface(self):
         wavelet = Wavelet(WholeExtent=[-8, 8, -8, 8, -8, 8])

@@ -245,17 +245,17 @@ class ClosestPacking(VTKPythonAlgorithmBase):
 
     def RequestData(self, request, inInfo, outInfo):
         with errors_shown(self):
-            mesh = packing.polygons_of(vtkDataObject.GetData(inInfo[0], 0))
+            mesh, told = packing.polygons_of(vtkDataObject.GetData(inInfo[0], 0))
             by = packing.engine()
             defects, found, warnings = by.diagnose(mesh, self._preparation())
             output = vtkUnstructuredGrid.GetData(outInfo, 1)
             output.ShallowCopy(defects)
-            packing.add_findings(output, found, warnings, by.name)
+            packing.add_findings(output, found, [*told, *warnings], by.name)
             options = {**self._size(), **self._preparation(), **self._placement()}
             filled, report, warnings = by.fill(mesh, options, self._values["Output"] == 1)
             output = vtkUnstructuredGrid.GetData(outInfo, 0)
             output.ShallowCopy(filled)
-            packing.add_findings(output, report, warnings, by.name)
+            packing.add_findings(output, report, [*told, *warnings], by.name)
         return 1
 
 

@@ -3,7 +3,7 @@
 import contextlib
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
@@ -106,3 +106,9 @@ def publish_times(info, times):
     if len(times):
         info.Append(keys.TIME_RANGE(), times[0])
         info.Append(keys.TIME_RANGE(), times[-1])
+
+
+def flagged(attributes, number, bits):
+    """Which of so many cells or points are flagged so (as copies of another piece's, or hidden)."""
+    flags = attributes.GetArray("vtkGhostType")
+    return vtk_to_numpy(flags) & bits != 0 if flags else numpy.zeros(number, bool)

@@ -5,7 +5,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSet, vtkPointSet, vtkPolyData, vtkStaticPointLocator
 
-from .common import Refused, block_named, leaves, package, texts, vtk_array
+from .common import Refused, block_named, flagged, leaves, package, texts, vtk_array
 
 ID_NAMES = ("id", "ID", "Id", "ids", "particle_id", "GlobalIds", "GlobalNodeId", "GlobalPointIds", "vtkOriginalPointIds")
 PAIRS_AT_ONCE = 1 << 22
@@ -29,14 +29,33 @@ def values_of(array):
     return values.astype(numpy.int64) if values.dtype.kind in "iu" else values
 
 
+def without_copies(data):
+    """The data set, or its points and their arrays without those that are copies of another piece's."""
+    copies = flagged(data.GetPointData(), data.GetNumberOfPoints(), 1)
+    if not copies.any():
+        return data
+    own, places, of, to = vtkPolyData(), vtkPoints(), vtkIdList(), vtkIdList()
+    places.SetDataTypeToDouble()
+    for point in numpy.flatnonzero(~copies):
+        to.InsertNextId(places.InsertNextPoint(data.GetPoint(int(point))))
+        of.InsertNextId(int(point))
+    own.SetPoints(places)
+    own.GetPointData().CopyAllOn()
+    own.GetPointData().CopyAllocate(data.GetPointData(), of.GetNumberOfIds())
+    own.GetPointData().CopyData(data.GetPointData(), of, to)
+    return own
+
+
 def point_sets(data, id_array):
-    """The data sets whose points count: of a run the particles, of other composites those with ids, or all."""
-    sets = [leaf for leaf in leaves(data) if isinstance(leaf, vtkDataSet) and leaf.GetNumberOfPoints()]
+    """The data sets whose points count: of a run the particles, of other composites those with ids, or all; without
+    copies of another piece's points."""
+    particles = block_named(data, "particles")
+    every = [leaf for leaf in leaves(data) if isinstance(leaf, vtkDataSet) and leaf.GetNumberOfPoints()]
+    if particles and particles in every:
+        every = [particles]
+    sets = [one for one in map(without_copies, every) if one.GetNumberOfPoints()]
     if not sets:
         raise Refused("the input has no points; of a table, apply Table To Points first")
-    particles = block_named(data, "particles")
-    if particles and particles in sets:
-        sets = [particles]
     with_ids = [one for one in sets if ids_of(one, id_array)]
     if id_array and not with_ids:
         raise Refused(f"there is no array {id_array} of points; set IdArray to the one that tells points apart, or to nothing")

@@ -8,13 +8,18 @@ import tempfile
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_DOUBLE, vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonCore import VTK_DOUBLE, vtkDoubleArray, vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkImplicitPolyDataDistance, vtkTriangleFilter
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridReader
 
-from .common import Refused, leaves, package, texts, vtk_array
+try:
+    from vtkmodules.vtkFiltersCore import vtkExtractCells
+except ImportError:  # before VTK 9.2
+    from vtkmodules.vtkFiltersExtraction import vtkExtractCells
+
+from .common import Refused, flagged, leaves, package, texts, vtk_array
 
 PACKINGS = ("fcc", "hcp", "random", "conformal")
 RULES = ("union", "hollow")
@@ -29,12 +34,31 @@ def triangles_of(polygons):
     return cut.GetOutput()
 
 
+def without_ghosts(data):
+    """The data set without cells that are copies of another piece's (1) or hidden (32), and their number."""
+    left_out = flagged(data.GetCellData(), data.GetNumberOfCells(), 33)
+    if not left_out.any():
+        return data, 0
+    own, ids = vtkExtractCells(), vtkIdList()
+    for cell in numpy.flatnonzero(~left_out):
+        ids.InsertNextId(int(cell))
+    own.SetInputData(data)
+    own.SetCellList(ids)
+    own.Update()
+    own.GetOutput().GetCellData().RemoveArray("vtkGhostType")
+    return own.GetOutput(), int(left_out.sum())
+
+
 def polygons_of(data):
-    """All polygons of any data, in one vtkPolyData of double precision."""
-    append = vtkAppendPolyData()
+    """All polygons of any data, in one vtkPolyData of double precision, and what is told of them."""
+    append, left_out = vtkAppendPolyData(), 0
     append.SetOutputPointsPrecision(1)  # VTK's DOUBLE_PRECISION
     for leaf in leaves(data):
         if not isinstance(leaf, vtkDataSet) or not leaf.GetNumberOfCells():
+            continue
+        leaf, ghosts = without_ghosts(leaf)
+        left_out += ghosts
+        if not leaf.GetNumberOfCells():
             continue
         if not isinstance(leaf, vtkPolyData):
             outside = vtkGeometryFilter()
@@ -58,7 +82,8 @@ def polygons_of(data):
         points.SetDataTypeToDouble()
         points.DeepCopy(merged.GetPoints())
         merged.SetPoints(points)
-    return merged
+    told = f"cells that are left out, as copies of another piece's (ghosts) or hidden: {left_out}"
+    return merged, [told] if left_out else []
 
 
 class ByModule:
