@@ -37,16 +37,22 @@ def triangles_of(polygons):
 def without_ghosts(data):
     """The data set without cells that are copies of another piece's (1) or hidden (32), and their number."""
     left_out = flagged(data.GetCellData(), data.GetNumberOfCells(), 33)
-    if not left_out.any():
-        return data, 0
+    if not left_out.any() or left_out.all():
+        return (vtkPolyData() if left_out.any() else data), int(left_out.sum())
     own, ids = vtkExtractCells(), vtkIdList()
     for cell in numpy.flatnonzero(~left_out):
         ids.InsertNextId(int(cell))
     own.SetInputData(data)
     own.SetCellList(ids)
     own.Update()
-    own.GetOutput().GetCellData().RemoveArray("vtkGhostType")
-    return own.GetOutput(), int(left_out.sum())
+    grid = own.GetOutput()
+    grid.GetCellData().RemoveArray("vtkGhostType")
+    # Pieces may have points of their own where they meet.
+    places = vtk_to_numpy(grid.GetPoints().GetData())
+    first, inverse = numpy.unique(places, axis=0, return_index=True, return_inverse=True)[1:]
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    corners[:] = first[inverse.ravel()][corners]
+    return grid, int(left_out.sum())
 
 
 def polygons_of(data):
