@@ -132,22 +132,24 @@ TEST(PolygonsOfVtk, GridsGiveTheirOuterFaces) {
 }
 
 TEST(PolygonsOfVtk, GhostsAndHiddenCellsAreLeftOutAndCounted) {
-  vtkNew<vtkImageData> boxes;  // eight, twice
-  boxes->SetDimensions(3, 3, 3);
-  vtkNew<vtkAppendFilter> twice;
-  twice->AddInputData(boxes);
-  twice->AddInputData(boxes);
-  twice->MergePointsOn();
-  twice->Update();
-  vtkUnstructuredGrid* grid = twice->GetOutput();
+  vtkNew<vtkImageData> one, other;  // each of 3 x 2 x 2 boxes, of which 2 x 2 are in both
+  one->SetExtent(0, 3, 0, 2, 0, 2);
+  other->SetExtent(2, 5, 0, 2, 0, 2);
   vtkNew<vtkUnsignedCharArray> flags;
   flags->SetName("vtkGhostType");
-  for (vtkIdType i = 0; i < 16; ++i) flags->InsertNextValue(i < 8 ? 0 : 1);
-  grid->GetCellData()->AddArray(flags);
-  const PolygonSoup copies = polygons_of(*grid);
-  EXPECT_EQ(copies.polygons.size(), 24u);
-  EXPECT_NEAR(volume(triangles_of(copies)), 8, 1e-12);
-  EXPECT_NE(copies.warning.find("8 of 16"), std::string::npos) << copies.warning;
+  for (vtkIdType i = 0; i < 24; ++i) flags->InsertNextValue(i >= 12 && i % 3 == 0 ? 1 : 0);
+  for (const bool merged : {false, true}) {
+    vtkNew<vtkAppendFilter> both;
+    both->AddInputData(one);
+    both->AddInputData(other);
+    both->SetMergePoints(merged);
+    both->Update();
+    both->GetOutput()->GetCellData()->AddArray(flags);
+    const PolygonSoup soup = polygons_of(*both->GetOutput());
+    EXPECT_EQ(soup.polygons.size(), 48u);
+    EXPECT_NEAR(volume(triangles_of(soup)), 20, 1e-12);
+    EXPECT_NE(soup.warning.find("4 of 24"), std::string::npos) << soup.warning;
+  }
   const auto shape = square();
   set_polygon(*shape, {0, 1, 2});
   shape->GetPolys()->InsertNextCell({0, 2, 3});

@@ -12,7 +12,9 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <array>
 #include <limits>
+#include <map>
 #include <string>
 
 #include <sinew/core/error.h>
@@ -125,6 +127,18 @@ PolygonSoup soup_of(vtkPolyData& shape) {
   return soup;
 }
 
+/// Pieces may have points of their own where they meet.
+void join_equal_points(vtkUnstructuredGrid& grid) {
+  std::map<std::array<double, 3>, vtkIdType> places;
+  vtkDataArray& ids = *grid.GetCells()->GetConnectivityArray();
+  for (vtkIdType i = 0; i < ids.GetNumberOfTuples(); ++i) {
+    const auto id = static_cast<vtkIdType>(ids.GetComponent(i, 0));
+    std::array<double, 3> place{};
+    grid.GetPoint(id, place.data());
+    ids.SetComponent(i, 0, static_cast<double>(places.emplace(place, id).first->second));
+  }
+}
+
 /// Without the cells that are copies of another piece's.
 vtkSmartPointer<vtkDataSet> own_cells(vtkDataSet& shape) {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(&shape);
@@ -132,6 +146,7 @@ vtkSmartPointer<vtkDataSet> own_cells(vtkDataSet& shape) {
   auto own = vtkSmartPointer<vtkUnstructuredGrid>::New();
   own->ShallowCopy(grid);
   own->RemoveGhostCells();
+  if (own->GetNumberOfCells() < grid->GetNumberOfCells()) join_equal_points(*own);
   return own;
 }
 
