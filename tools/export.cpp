@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-export: the particles of a run's frames as files of other programs, and a scene's body as
-// finite elements.
+// sinew-export: the particles and surfaces of a run's frames as files of other programs, and a
+// scene's body as finite elements.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -8,6 +8,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
 #include <sinew/run/export_run.h>
+#include <sinew/run/export_surfaces.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/run/volume_frames.h>
 #include <sinew/scene/body.h>
@@ -23,13 +24,21 @@ namespace {
 using namespace sinew;
 
 struct Options {
-  std::string folder, format, output;
+  std::string folder, format, output, series = "surface";
   std::vector<double> times;
   ElementOptions elements;
 };
 
 constexpr const char* of_scenes = "calculix";  // not of particles
 constexpr const char* of_cells = "volume";     // of tetrahedra between them
+
+/// "" where the surface is not what is asked for.
+std::string surface_extension(const Options& options) {
+  const std::string extension =
+      options.format.empty() ? lower(std::filesystem::path(options.output).extension().string())
+                             : '.' + options.format;
+  return is_surface_file(extension) ? extension : "";
+}
 
 bool is_deck(const Options& options) {
   return options.format == of_scenes ||
@@ -41,7 +50,9 @@ void declare(OptionList& list, Options& options) {
   list.add("--to", options.format,
            "Format, by default that of the file's name: " + help_of_formats() +
                ", volume (tetrahedra between the particles, a series of VTU files as of "
-               "output.volume, by default in the run's folder), calculix (of a scene: finite "
+               "output.volume, by default in the run's folder), obj, ply, stl (the deformed "
+               "surface, "
+               "in m), calculix (of a scene: finite "
                "elements, an input deck of CalculiX, .inp)")
       .type_name("FORMAT");
   list.add("--times", options.times, "Times of the frames, s; all frames if not given")
@@ -51,6 +62,10 @@ void declare(OptionList& list, Options& options) {
            "File, or folder of one file per frame where a format has no frames; by default named "
            "after the run")
       .type_name("FILE|DIR");
+  list.add("--series", options.series,
+           "obj, ply, stl: surface, skin_lbs or skin_dqs (which output.skin_lbs and .skin_dqs "
+           "write)")
+      .type_name("NAME");
   list.add("--size", options.elements.size,
            "calculix: side of the elements, m; by default 4 radii of the particles")
       .type_name("LENGTH");
@@ -67,10 +82,12 @@ bool separate(const ParticleFormat& format, const std::vector<std::size_t>& fram
   return !format.many_frames && frames.size() > 1;
 }
 
-std::filesystem::path default_target(const Options& options, const ParticleFormat& format,
-                                     bool folder) {
+/// The path that is given, or one named after the run.
+std::filesystem::path target_of(const Options& options, std::string_view format,
+                                std::string_view extension, bool folder) {
+  if (!options.output.empty()) return options.output;
   const auto run = std::filesystem::weakly_canonical(options.folder).filename().string();
-  return run + (folder ? '_' + std::string(format.name) : std::string(format.extensions.front()));
+  return run + (folder ? '_' + std::string(format) : std::string(extension));
 }
 
 /// Chooses by its name, or where frames go to one file by that of the file.
@@ -183,16 +200,33 @@ Exit export_cells(const Options& options, const Common& common) {
   return Exit::done;
 }
 
+Exit export_surface(const Options& options, const std::string& extension, const Common& common) {
+  const RunFiles run = open_run({options.folder});
+  const std::vector<std::size_t> frames = frames_at(run, options.times);
+  const bool folder = frames.size() > 1;
+  const auto target = target_of(options, extension.substr(1), extension, folder);
+  refuse_target(target, options, folder);
+  const auto files = export_surfaces(run, {options.series, extension}, frames, target);
+  Results results;
+  results.add("frames", frames.size());
+  results.add("files", files.size());
+  results.add(folder ? "folder" : "file", target.string());
+  results.print(common);
+  return Exit::done;
+}
+
 Exit export_run(const Options& options, const Common& common) {
   refuse_deck_options(options, common);
+  if (const std::string extension = surface_extension(options); !extension.empty())
+    return export_surface(options, extension, common);
+  if (options.series != "surface")
+    throw bad_input("--series is for surfaces", "add --to obj, ply or stl");
   if (options.format == of_cells) return export_cells(options, common);
   const ParticleFormat& format = chosen_format(options);
   const RunFiles run = open_run({options.folder});
   const std::vector<std::size_t> frames = frames_at(run, options.times);
   const bool folder = separate(format, frames);
-  const std::filesystem::path target = options.output.empty()
-                                           ? default_target(options, format, folder)
-                                           : std::filesystem::path(options.output);
+  const auto target = target_of(options, format.name, format.extensions.front(), folder);
   refuse_target(target, options, folder);
   print(export_frames(run, format, frames, target), run, frames, target, common);
   return Exit::done;
@@ -204,9 +238,10 @@ int main(int argc, char** argv) {
   Options options;
   About about{
       "export",
-      "Writes the particles of a run, or the body of a scene, for other programs.",
+      "Writes the particles or surface of a run, or the body of a scene, for other programs.",
       {"sinew export out/box_bend --to xyz -o box_bend.xyz",
        "sinew export out/box_bend --to lammps --times 1 -o bent.data",
+       "sinew export out/box_bend --to obj --times 1.2 -o bent.obj",
        "sinew export out/box_bend --to bgeo -o frames", "sinew export out/box_bend --to volume",
        "sinew export beam.yaml --to calculix -o beam.inp",
        "sinew export beam.yaml --to calculix --frequency 6 -o modes.inp"}};

@@ -69,14 +69,19 @@ void refuse_target(const Options& options, const Settings& settings) {
   refuse_file_of_run(options.output);
 }
 
-void print(const FillReport& report, const Options& options, const Common& common) {
-  Results results;
-  for (const auto& rows : {rows_of(report), times_of(report)})
-    for (const ReportRow& row : rows) results.add(row.key, json_of(row.value), row.unit);
+void print_with_warnings(Results& results, const FillReport& report, const Options& options,
+                         const Common& common) {
   results.add("warnings", report.warnings);
   results.add("file", options.output);
   results.print(common);
   for (const std::string& warning : report.warnings) say(common, "sinew: warning: " + warning);
+}
+
+void print(const FillReport& report, const Options& options, const Common& common) {
+  Results results;
+  for (const auto& rows : {rows_of(report), times_of(report)})
+    for (const ReportRow& row : rows) results.add(row.key, json_of(row.value), row.unit);
+  print_with_warnings(results, report, options, common);
 }
 
 /// VTU has more columns for bodies than other formats.
@@ -93,12 +98,11 @@ Settings settings_for(const Options& options, const Common& common) {
                                  : settings_for_mesh(options, common);
 }
 
-void print_cells(const VolumeCells& cells, const FillReport& report, const Surface& surface,
+void print_cells(const VolumeCells& cells, FillReport report, const Surface& surface,
                  double seconds, const Options& options, const Common& common) {
   const CellQuality quality = quality_of(cells);
-  std::vector<std::string> warnings = report.warnings;
   if (const auto lost = cell_warning(quality.volume, report.volume, surface))
-    warnings.push_back(*lost);
+    report.warnings.push_back(*lost);
   Results results;
   results.add("particles", report.particles);
   results.add("tetrahedra", cells.cells.size());
@@ -108,10 +112,7 @@ void print_cells(const VolumeCells& cells, const FillReport& report, const Surfa
   results.add("smallest_angle", quality.angles.smallest, "degrees between two faces");
   results.add("largest_angle", quality.angles.largest, "degrees");
   results.add("seconds_cells", seconds, "s");
-  results.add("warnings", warnings);
-  results.add("file", options.output);
-  results.print(common);
-  for (const std::string& warning : warnings) say(common, "sinew: warning: " + warning);
+  print_with_warnings(results, report, options, common);
 }
 
 Exit fill_with_cells(Options options, const Common& common) {

@@ -57,7 +57,7 @@ class Completion(unittest.TestCase):
         fill = subprocess.run([BIN / "sinew", "fill", "--help"], capture_output=True, text=True).stdout
         formats = re.findall(r"(\w+) \(", fill.split("--to FORMAT")[1].split("--verify")[0])
         self.assertEqual(set(bash("sinew", "fill", "--to", "")), set(formats))
-        self.assertEqual(set(bash("sinew", "export", "--to", "")), {*formats, "calculix", "volume"} - {"tetrahedra"})
+        self.assertEqual(set(bash("sinew", "export", "--to", "")), {*formats, "calculix", "volume", "obj", "ply", "stl"} - {"tetrahedra"})
         said = subprocess.run([BIN / "sinew", "fill", SOURCE / "data/meshes/box.obj", "--radius", "1", "--packing", "zzz"],
                               capture_output=True, text=True).stderr
         packings = said.split("use one of ")[1].strip().split(", ")

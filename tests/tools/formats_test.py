@@ -353,6 +353,23 @@ class Exported(SmallRun):
         self.export("--times", "0.2", "-o", "one.glb")
         self.near(read_glb(self.folder / "one.glb")[0], 2)
 
+    def test_surfaces_of_moments(self):
+        self.scene.write_text(SCENE.format(mesh=SOURCE / "data/meshes/box.obj") + "output: {interval: 0.1, skin_lbs: true}\n")
+        self.simulate("--force")
+        for series, words in (("surface", []), ("skin_lbs", ["--series", "skin_lbs"])):
+            wanted = meshio.read(self.out / series / f"{series}_000003.vtu")
+            triangles = wanted.points[wanted.cells_dict["triangle"]]
+            for name in ("one.obj", "one.ply", "one.stl"):
+                self.export("--times", 0.3, "-o", name, *words)
+                read = meshio.read(self.folder / name)
+                np.testing.assert_array_equal(read.points[read.cells_dict["triangle"]].astype(np.float32), triangles)
+                self.assertEqual(sinew("info", self.folder / name, "--json", check=0).stdout.count('"closed": true'), 1)
+        self.export("--to", "stl")
+        self.assertEqual(sorted(path.name for path in (self.folder / "run_stl").iterdir()), [f"surface_{k:06}.stl" for k in range(5)])
+        for words in (["--series", "skin_dqs"], ["--series", "bones"]):
+            self.assert_one_line(self.export("--to", "obj", *words, check=2), 2, words[1])
+        self.assert_one_line(self.export("--to", "csv", "--series", "skin_lbs", check=2), 2, "obj, ply or stl")
+
     def test_a_named_format_takes_any_file_name(self):
         for name in ("one.data", "one.lammps", "one"):
             self.export("--to", "lammps", "--times", "0.2", "-o", name)

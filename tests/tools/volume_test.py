@@ -57,6 +57,14 @@ class Meshes(SmallRun):
         nodes = meshio.read(self.folder / "arm.inp").point_sets["PARTICLES"]
         self.assertEqual(list(nodes), list(numpy.flatnonzero(first.point_data["id"] >= 0)))
 
+    def test_warnings_are_in_the_json(self):
+        text = (SOURCE / "data/meshes/box.obj").read_text()
+        (self.folder / "open.obj").write_text(text[:text.rstrip().rfind("\n")] + "\n")  # without its last face
+        found = sinew("fill", self.folder / "open.obj", "--radius", 0.03, "--to", "tetrahedra", "--json", cwd=self.folder, check=0)
+        warnings = json.loads(found.stdout)["warnings"]
+        self.assertTrue(warnings)
+        self.assertIn(warnings[0], found.stderr)
+
     def test_the_ending_chooses_the_format(self):
         for name in ("arm.lammps", "arm", "arm.data"):
             done, target = self.fill(name, check=2)

@@ -44,7 +44,7 @@ void declare_common(CLI::App& app, const About& about, Given& given) {
   app.set_help_flag("-h,--help", "Show this help and exit");
   app.set_version_flag("--version", "sinew " + version(), "Show the version and exit");
   OptionList list(app);
-  list.add_flag("--quiet", given.common.quiet, "Print no progress and no messages");
+  list.add_flag("--quiet", given.common.quiet, "Print results only: no progress, no messages");
   list.add_flag("--json", given.common.json, "Print the results as one JSON object");
   list.add_flag("--verbose", given.common.verbose, "Print all results, with all their digits");
   list.add("--threads", given.common.threads, "Threads to use; 0: one per core")

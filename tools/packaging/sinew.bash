@@ -25,7 +25,7 @@ _sinew() {
     --to)
       local formats="vtu lammps dump xyz csv yade peridigm bgeo gltf"
       [ "$command" = fill ] && formats+=" tetrahedra"
-      [ "$command" = export ] && formats+=" calculix volume"
+      [ "$command" = export ] && formats+=" calculix volume obj ply stl"
       mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$word")
       return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "m dm cm mm um in ft" -- "$word"); return ;;

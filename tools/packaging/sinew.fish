@@ -21,5 +21,5 @@ complete -c sinew -l unit -x -a 'm dm cm mm um in ft'
 complete -c sinew -l packing -x -a 'fcc hcp random conformal'
 complete -c sinew -l engine -x -a 'built-in lammps'
 complete -c sinew -l to -x -a 'vtu lammps dump xyz csv yade peridigm bgeo gltf'
-complete -c sinew -n '__fish_seen_subcommand_from export' -l to -x -a 'calculix volume'
+complete -c sinew -n '__fish_seen_subcommand_from export' -l to -x -a 'calculix volume obj ply stl'
 complete -c sinew -n '__fish_seen_subcommand_from fill' -l to -x -a tetrahedra

@@ -55,14 +55,14 @@ std::size_t broken_bonds(const RunFrame& frame) {
   return std::accumulate(of_each.begin(), of_each.end(), std::size_t{0}) / 2;
 }
 
-std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame,
-                               std::string_view extension) {
+}  // namespace
+
+std::filesystem::path numbered(const std::filesystem::path& folder, const std::string& name,
+                               std::size_t frame, std::string_view extension) {
   const std::string digits = std::to_string(frame);
   const std::size_t zeros = digits.size() < 6 ? 6 - digits.size() : 0;
-  return folder / ("particles_" + std::string(zeros, '0') + digits + std::string(extension));
+  return folder / (name + '_' + std::string(zeros, '0') + digits + std::string(extension));
 }
-
-}  // namespace
 
 std::vector<std::size_t> frames_at(const RunFiles& run, const std::vector<double>& times) {
   if (run.frames() == 0)
@@ -109,8 +109,9 @@ ExportedFrames export_frames(const RunFiles& run, const ParticleFormat& format,
   if (frames.size() > 1) create_folder(target);
   for (const std::size_t frame : frames) {
     read(frame);
-    done.files.push_back(frames.size() > 1 ? numbered(target, frame, format.extensions.front())
-                                           : target);
+    done.files.push_back(frames.size() > 1
+                             ? numbered(target, "particles", frame, format.extensions.front())
+                             : target);
     write_particles(done.files.back(), cloud, format);
   }
   return done;

@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <sinew/io/particle_formats/formats.h>
@@ -17,6 +19,10 @@ namespace sinew {
 /// The frames nearest to these times (s), ascending, each once; all where no time is given. Throws
 /// bad input for times outside the run.
 std::vector<std::size_t> frames_at(const RunFiles& run, const std::vector<double>& times);
+
+/// "FOLDER/NAME_000012.EXTENSION".
+std::filesystem::path numbered(const std::filesystem::path& folder, const std::string& name,
+                               std::size_t frame, std::string_view extension);
 
 /// The particles of a run at rest, with the pairs that touch then if the format has bonds.
 ParticleCloud rest_cloud(const RunFiles& run, const ParticleFormat& format);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sinew/run/export_surfaces.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include <sinew/core/error.h>
+#include <sinew/core/file.h>
+#include <sinew/core/text.h>
+#include <sinew/mesh/mesh_formats.h>
+#include <sinew/mesh/refine.h>
+#include <sinew/run/export_run.h>
+#include <sinew/run/measure_run.h>
+
+namespace sinew {
+namespace {
+
+std::string ply_text_of(const Triangles& surface) {
+  PolygonSoup soup{surface.points, {}};
+  for (const auto& face : surface.faces) soup.polygons.emplace_back(face.begin(), face.end());
+  return ply_text(soup);
+}
+
+/// 80 bytes that do not begin with "solid", the number of triangles, and of each its normal, its
+/// corners and two bytes.
+std::string stl_text(const Triangles& surface) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string text = "binary STL of sinew, in meters";
+  text.resize(80, ' ');
+  const auto append = [&](const auto& value) {
+    text.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  append(static_cast<std::uint32_t>(surface.faces.size()));
+  for (const auto& [a, b, c] : surface.faces) {
+    const Points& p = surface.points;
+    for (const Vec3& row : {Vec3((p[b] - p[a]).cross(p[c] - p[a]).normalized()), p[a], p[b], p[c]})
+      for (const double x : row) append(static_cast<float>(x));
+    append(std::uint16_t{0});
+  }
+  return text;
+}
+
+struct Format {
+  std::string_view extension;
+  std::string (*text)(const Triangles&);
+};
+
+constexpr std::array formats = {Format{".obj", obj_text}, Format{".ply", ply_text_of},
+                                Format{".stl", stl_text}};
+
+const std::vector<PvdRow>& rows_of(const RunFiles& run, const std::string& series) {
+  if (series == "surface") return run.surface_rows;
+  const bool linear = series == "skin_lbs";
+  if (!linear && series != "skin_dqs")
+    throw bad_input("there is no surface " + shown(series), "give surface, skin_lbs or skin_dqs");
+  const std::vector<PvdRow>& rows = linear ? run.lbs_rows : run.dqs_rows;
+  if (rows.empty())
+    throw bad_input(Place{run.folder.path.string()}, "has not written " + series,
+                    "run the scene with output." + series);
+  return rows;
+}
+
+}  // namespace
+
+bool is_surface_file(std::string_view extension) {
+  for (const Format& format : formats)
+    if (format.extension == extension) return true;
+  return false;
+}
+
+std::vector<std::filesystem::path> export_surfaces(const RunFiles& run, const SurfaceExport& as,
+                                                   const std::vector<std::size_t>& frames,
+                                                   const std::filesystem::path& target) {
+  const std::vector<PvdRow>& rows = rows_of(run, as.series);
+  if (frames.size() > 1) create_folder(target);
+  std::vector<std::filesystem::path> files;
+  for (const std::size_t frame : frames) {
+    if (frame >= rows.size())
+      throw bad_input(Place{run.folder.path.string()},
+                      "has no frame " + std::to_string(frame) + " of " + as.series,
+                      "give earlier --times");
+    const Triangles surface = read_surface_frame(run.folder.path / rows[frame].file);
+    files.push_back(frames.size() > 1 ? numbered(target, as.series, frame, as.extension) : target);
+    for (const Format& format : formats)
+      if (format.extension == as.extension) write_file(files.back(), format.text(surface));
+  }
+  return files;
+}
+
+}  // namespace sinew
