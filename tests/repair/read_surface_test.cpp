@@ -131,6 +131,29 @@ TEST(Read, TellsTextFromBinaryStlWhateverTheFirstWord) {
   EXPECT_EQ(read_polygons(folder.file("c.stl", binary + std::string(7, '\0'))).polygons.size(), 4u);
 }
 
+TEST(Read, TellsWhatIsNotRead) {
+  const Folder folder;
+  const auto soup = shapes::tetrahedron();
+  std::string binary = mesh_files::stl_binary(soup);
+  binary[80] = 3;
+  EXPECT_NE(read_polygons(folder.file("a.stl", binary)).warning, "");
+  EXPECT_NE(
+      read_polygons(folder.file("a.obj", mesh_files::obj(soup) + "surf 0 1 0 1 1 2 3 4\n")).warning,
+      "");
+}
+
+TEST(Read, TakesLinesOfOldMacs) {
+  const Folder folder;
+  const auto soup = shapes::tetrahedron();
+  for (auto [name, text] : {std::pair("a.obj", mesh_files::obj(soup)),
+                            {"a.off", mesh_files::off(soup)},
+                            {"a.ply", mesh_files::ply(soup)},
+                            {"a.stl", mesh_files::stl(soup)}}) {
+    std::replace(text.begin(), text.end(), '\n', '\r');
+    EXPECT_EQ(read_polygons(folder.file(name, text)).polygons.size(), 4u) << name;
+  }
+}
+
 TEST(Read, TakesSeveralSolidsOfAnStl) {
   const Folder folder;
   const auto far = shapes::moved(shapes::tetrahedron(), Vec3(5, 0, 0));
@@ -213,7 +236,10 @@ TEST(Read, TakesOffInLinesOfAnyLength) {
         "OFF4 4 6\n" + points + faces, "off\n4 4\n6\n" + rows, "OFF4 4 0\n" + rows,
         std::string("CNOFF 4 4 0 0 0 0 0 0 1 .1 .2 .3 1\n1 0 0 0 0 1 1 0 0 1 0 1 0 0 0 1 0 1 0 1 "
                     "0 0 1 0 0 1 1 1 1 1\n") +
-            faces}) {
+            faces,
+        std::string(
+            "OFF\n4 4\n6\n0 0\n0 9 9 9\n1 0 0\n0 1 0\n0 0 1 8\n3 0 2 1 255 0 0\n3 0\n1 3 .5\n3 1 2 "
+            "3\n3 2 0 3")}) {
     const PolygonSoup soup = read_polygons(folder.file("a.off", text));
     EXPECT_EQ(soup.points, shapes::tetrahedron().points) << text;
     EXPECT_EQ(soup.polygons, shapes::tetrahedron().polygons) << text;

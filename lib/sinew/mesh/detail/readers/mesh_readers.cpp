@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/mesh/detail/readers/mesh_readers.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -52,6 +53,9 @@ MeshFile open_mesh(const std::string& path) {
   if (static_cast<std::size_t>(in.gcount()) != file.content.size())
     throw bad_input({path}, "the file could not be read to its end", "check the disk, try again");
   if (file.content.starts_with("\xEF\xBB\xBF")) file.content.erase(0, 3);  // byte order mark
+  // Lines of old Macs end in '\r' alone.
+  if (file.content.find_first_of(std::string_view("\n\0", 2)) == std::string::npos)
+    std::replace(file.content.begin(), file.content.end(), '\r', '\n');
   return file;
 }
 

@@ -46,7 +46,7 @@ PolygonSoup read_obj(const MeshFile& file, PolygonLook& look);
 std::vector<SurfaceLook::Material> read_mtl(const std::string& path);
 
 /// Geomview OFF (also with colors, normals, texture coordinates; text only), by lines or, where
-/// they do not fit, by words: numbers in lines of any length, without colors of the faces.
+/// they do not fit, by words: numbers in lines of any length.
 PolygonSoup read_off(const MeshFile& file);
 
 /// "OFF", "COFF" and so on; the number of vertices may follow without a blank.

@@ -5,6 +5,7 @@
 //     const std::optional<double> x = number_in(words.next());
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ class Words {
   /// The line of the last word returned.
   int line() const { return line_; }
   std::string_view rest() const { return rest_; }
+
+  /// Goes to the end of the line.
+  void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }
 
  private:
   std::string_view rest_;

@@ -75,6 +75,9 @@ class ObjReader {
           largest_line_,
           "the face names vertex " + std::to_string(largest_) + " of " + std::to_string(vertices()),
           "export the mesh again");
+    if (has_free_form_)
+      soup_.warning += std::string(soup_.warning.empty() ? "" : "; ") +
+                       "free-form surfaces (surf) are not read; export them as polygons";
     return std::move(soup_);
   }
 
@@ -86,7 +89,8 @@ class ObjReader {
       Words words(lines.line(), lines.number());
       const std::string_view keyword = words.next();
       if (keyword == "v") soup_.points.push_back(next_point(words, file_));
-      if (keyword == "f") face(words);
+      if (keyword == "f" || keyword == "fo") face(words);
+      has_free_form_ = has_free_form_ || keyword == "surf";
       if (look_) look_at(keyword, lines.line(), words);
     }
     refuse_too_many_points(file_, soup_.points.size());
@@ -186,6 +190,7 @@ class ObjReader {
   std::vector<int> corners_;
   std::int64_t largest_ = 0;
   int largest_line_ = 0;
+  bool has_free_form_ = false;
 };
 
 }  // namespace

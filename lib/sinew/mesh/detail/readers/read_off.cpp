@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 #include <sinew/core/text.h>
 #include <sinew/mesh/detail/readers/mesh_readers.h>
@@ -10,8 +12,9 @@ namespace {
 
 /// How the numbers of a vertex or face are told from those of the next.
 enum class Layout {
-  lines,  ///< each has a line of its own, which colors may end
-  words   ///< each has as many as the header says, in lines of any length
+  lines,   ///< each has a line of its own, which colors may end
+  words,   ///< each has as many as the header says, in lines of any length
+  wrapped  ///< each begins a line, and colors may end its last one
 };
 
 class OffReader {
@@ -29,9 +32,13 @@ class OffReader {
       soup.points.push_back(next_point(row(), file_));
       if (layout_ == Layout::words)
         for (int k = 0; k < more_per_vertex_; ++k) words_.next();
+      end_row();
     }
     refuse_too_many_points(file_, soup.points.size());
-    for (std::int64_t i = 0; i < faces; ++i) soup.polygons.push_back(face(vertices));
+    for (std::int64_t i = 0; i < faces; ++i) {
+      soup.polygons.push_back(face(vertices));
+      end_row();
+    }
     soup.warning = unread();
     return soup;
   }
@@ -41,11 +48,15 @@ class OffReader {
  private:
   /// The words of the next line that has any, or those of the whole rest.
   Words& row() {
-    if (layout_ == Layout::words) return words_;
+    if (layout_ != Layout::lines) return words_;
     while (lines_.next())
       if (!Words(lines_.line()).next().empty())
         return words_ = Words(lines_.line(), lines_.number());
     throw ends_early(lines_.number());
+  }
+
+  void end_row() {
+    if (layout_ == Layout::wrapped) words_.skip_line();
   }
 
   Error ends_early(int line) const {
@@ -67,7 +78,8 @@ class OffReader {
                              ? "binary OFF cannot be read"
                              : "expected the numbers of vertices and faces, not " + shown(word),
                          "export the mesh as OFF text with its faces");
-    if (layout_ == Layout::words) words_.next();  // the number of edges
+    if (layout_ != Layout::lines) words_.next();  // the number of edges
+    end_row();
     has_counts_ = true;
     return {*vertices, *faces};
   }
@@ -114,7 +126,7 @@ class OffReader {
   std::string unread() {
     Words rest(layout_ == Layout::lines ? lines_.rest() : words_.rest());
     if (rest.next().empty()) return {};
-    if (layout_ == Layout::words)
+    if (layout_ != Layout::lines)
       throw file_.broken(words_.line(), "the file goes on after its last face",
                          "export the mesh again");
     return "what follows the last face is not read: the file says fewer faces than it holds";
@@ -138,6 +150,17 @@ std::string without_comments(std::string text) {
   return text;
 }
 
+/// None where the file is not laid out so; its errors are told where `tells`.
+std::optional<PolygonSoup> read_as(Layout layout, const MeshFile& file, std::string_view text,
+                                   bool tells) {
+  try {
+    return OffReader(file, text, layout).soup();
+  } catch (const Error&) {
+    if (tells) throw;
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 bool is_off_keyword(std::string_view word) {
@@ -153,11 +176,9 @@ PolygonSoup read_off(const MeshFile& file) {
   try {
     return lines.soup();
   } catch (const Error&) {
-    try {
-      return OffReader(file, text, Layout::words).soup();
-    } catch (const Error&) {
-      if (!lines.has_counts()) throw;
-    }
+    if (auto soup = read_as(Layout::words, file, text, false)) return *std::move(soup);
+    if (auto soup = read_as(Layout::wrapped, file, text, !lines.has_counts()))
+      return *std::move(soup);
     throw;
   }
 }

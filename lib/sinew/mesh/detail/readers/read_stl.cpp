@@ -40,7 +40,7 @@ PolygonSoup soup_of(const MeshFile& file, Points points) {
 PolygonSoup read_binary(const MeshFile& file) {
   const std::size_t triangles = stated_triangles(file.content);
   const std::size_t contained = (file.content.size() - start) / triangle_bytes;
-  if (triangles > contained)
+  if (triangles > contained || (triangles == 0 && contained > 0))
     throw file.broken(0,
                       "the file says " + std::to_string(triangles) + " triangles but holds " +
                           std::to_string(contained),
@@ -57,7 +57,11 @@ PolygonSoup read_binary(const MeshFile& file) {
     for (int corner = 0; corner < 3; ++corner)
       points.emplace_back(corners.col(corner).cast<double>());
   }
-  return soup_of(file, std::move(points));
+  PolygonSoup soup = soup_of(file, std::move(points));
+  if (triangles < contained)
+    soup.warning = "the file says " + std::to_string(triangles) + " triangles but holds " +
+                   std::to_string(contained) + ", of which the others are not read";
+  return soup;
 }
 
 class StlText {
