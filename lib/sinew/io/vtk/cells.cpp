@@ -242,33 +242,26 @@ bool is_left_out(std::uint8_t flags) {
   return (flags & (duplicate | hidden)) != 0;
 }
 
-/// Removes the cells that are left out. Returns their number.
+/// Removes the cells that are left out, none from damaged ones. Returns their number.
 std::size_t drop_ghosts(VtkCells& cells) {
-  const std::size_t flagged =
-      std::min({cells.ghosts.size(), cells.types.size(), cells.ends.size()});
-  std::size_t kept = 0, dropped = 0;
+  const std::size_t count = cells.ends.size();
+  if (std::none_of(cells.ghosts.begin(), cells.ghosts.end(), is_left_out)) return 0;
+  if (cells.types.size() != count) return 0;
+  VtkCells shown;
   std::int64_t begin = 0;
-  VtkCells shown{cells.types, cells.ends, {}};
-  for (std::size_t i = 0; i < cells.ends.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t end = cells.ends[i];
-    if (i < flagged && is_left_out(cells.ghosts[i])) {
-      ++dropped;
-    } else {
-      if (i < cells.types.size()) shown.types[kept] = cells.types[i];
-      if (begin >= 0 && begin <= end && end <= static_cast<std::int64_t>(cells.points.size()))
-        shown.points.insert(shown.points.end(), cells.points.begin() + begin,
-                            cells.points.begin() + end);
-      else
-        return 0;  // damaged: checked where the cells are read
-      shown.ends[kept++] = static_cast<std::int64_t>(shown.points.size());
+    if (end < begin || end > static_cast<std::int64_t>(cells.points.size())) return 0;
+    if (i >= cells.ghosts.size() || !is_left_out(cells.ghosts[i])) {
+      shown.types.push_back(cells.types[i]);
+      shown.points.insert(shown.points.end(), cells.points.begin() + begin,
+                          cells.points.begin() + end);
+      shown.ends.push_back(static_cast<std::int64_t>(shown.points.size()));
     }
     begin = end;
   }
-  if (dropped == 0) return 0;
-  shown.ends.resize(kept);
-  shown.types.resize(cells.types.size() - dropped);
   cells = std::move(shown);
-  return dropped;
+  return count - cells.ends.size();
 }
 
 /// Pieces have points of their own where they meet: volume cells on both sides share a face.
