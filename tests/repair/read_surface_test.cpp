@@ -152,6 +152,11 @@ TEST(Read, TakesLinesOfOldMacs) {
     std::replace(text.begin(), text.end(), '\n', '\r');
     EXPECT_EQ(read_polygons(folder.file(name, text)).polygons.size(), 4u) << name;
   }
+  std::string binary = mesh_files::ply_binary(soup);
+  std::replace(binary.begin(),
+               binary.begin() + static_cast<std::ptrdiff_t>(binary.find("end_header") + 11), '\n',
+               '\r');
+  EXPECT_EQ(read_polygons(folder.file("b.ply", binary)).polygons, soup.polygons);
 }
 
 TEST(Read, TakesSeveralSolidsOfAnStl) {

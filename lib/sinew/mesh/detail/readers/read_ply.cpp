@@ -226,9 +226,22 @@ PolygonSoup read_text(const MeshFile& file, const PlyHeader& header) {
   }
 }
 
+/// The end of a header whose lines end in '\r' alone, before a binary body; 0 for others.
+std::size_t end_of_old_header(std::string_view content) {
+  constexpr std::string_view last = "end_header\r";
+  if (!content.starts_with("ply\r") || content.substr(4, 1) == "\n") return 0;
+  const std::size_t end = content.find(last);
+  return end == content.npos ? 0 : end + last.size();
+}
+
 }  // namespace
 
 PolygonSoup read_ply(const MeshFile& file) {
+  if (const std::size_t end = end_of_old_header(file.content); end > 0) {
+    MeshFile mended = file;
+    std::replace(mended.content.data(), mended.content.data() + end, '\r', '\n');
+    return read_ply(mended);
+  }
   const PlyHeader header = ply_header(file);
   PolygonSoup soup = header.encoding == PlyEncoding::ascii
                          ? read_text(file, header)
