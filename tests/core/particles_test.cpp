@@ -8,6 +8,7 @@
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/hash.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/parallel.h>
 
 #include "support/world.h"
@@ -20,6 +21,22 @@ TEST(Hash, IsFnv1aOf64Bits) {  // published vectors of the algorithm
   hash.add("foobar");
   EXPECT_EQ(hash_text(hash.value()), "85944171f73967e8");
   EXPECT_EQ(hash_text(0xabc), "0000000000000abc");
+}
+
+TEST(LocalOrigin, IsNearABodyFarAwayAndZeroNearTheOrigin) {
+  const auto box_at = [](const Vec3& low) { return Box(low, low + Vec3(0.3, 0.4, 1.2)); };
+  EXPECT_EQ(local_origin({}), Vec3(0, 0, 0));
+  EXPECT_EQ(local_origin(Box(Vec3(1e9, 0, 0), Vec3(1e9, 0, 0))), Vec3(0, 0, 0));
+  EXPECT_EQ(local_origin(box_at({100, -50, 10})), Vec3(0, 0, 0));
+  for (const double far : {1e3, 403000.123, 1e7}) {
+    const Vec3 low(far, -3 * far, 0.1), origin = local_origin(box_at(low));
+    EXPECT_LT((origin - low).norm(), 3);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(origin[axis], std::round(origin[axis] / 2) * 2);
+      EXPECT_EQ(static_cast<float>(origin[axis]), origin[axis]);
+      EXPECT_EQ((low[axis] - origin[axis]) + origin[axis], low[axis]);
+    }
+  }
 }
 
 Particles three() {

@@ -25,6 +25,15 @@ TEST(Ticks, cover_their_range_in_round_steps) {
     }
 }
 
+TEST(Ticks, far_from_0_are_counted_from_one_of_them) {
+  EXPECT_EQ(ticks_over(10, 10.6, 0.1).base(), 0);
+  for (const double far : {403000.123, -3604900.456, 1e12}) {
+    const Ticks ticks = ticks_over(far, far + 0.6, 0.1);
+    EXPECT_LE(std::abs(ticks.at(ticks.base()) - ticks.low()), 1) << far;
+    EXPECT_LT(std::abs(ticks.at(ticks.last - ticks.base())), 2) << far;
+  }
+}
+
 TEST(Ticks, are_the_numbers_they_show) {
   EXPECT_EQ(ticks_over(0, 0.6, 0.15).at(3), 0.6);
   EXPECT_EQ(ticks_over(0, 600, 150).at(3), 600);

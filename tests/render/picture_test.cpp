@@ -368,4 +368,25 @@ TEST(Picture, a_cut_is_flat_and_has_exactly_the_colors_of_its_values) {
     }
 }
 
+TEST(Picture, far_from_the_origin_is_the_same) {
+  Snapshot near = synthetic_snapshot(0.8, 0.2);
+  near.obstacles = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  near.obstacle_space = bounds(near.particles);
+  near.traces.push_back({{near.particles.front(), near.particles.back()}, "7"});
+  const double size = bounds(near.particles).diagonal().norm();
+  Painter painter(near.surface, synthetic_scale());
+  const Image there = painter.draw(near, options_for(near, View::both));
+  for (const int power : {10, 17, 23}) {
+    const Vec3 by(std::ldexp(size, power), -std::ldexp(size, power - 1), 0);
+    Snapshot far = near;
+    shift(far, by);
+    far.obstacle_space.translate(by);
+    const Image image = painter.draw(far, options_for(far, View::both));
+    double off = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); ++i)
+      off += std::abs(image.rgb[i] - there.rgb[i]) / static_cast<double>(image.rgb.size());
+    EXPECT_LT(off, 1) << power;
+  }
+}
+
 }  // namespace sinew::picture_test

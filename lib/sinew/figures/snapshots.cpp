@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include <sinew/core/error.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/text.h>
 #include <sinew/figures/scene_picture.h>
 #include <sinew/render/camera.h>
@@ -228,7 +229,8 @@ void DrawnRun::read_overview() {
   const Points rest = positions_of(run_.body.particles);
   const Vec3 start = mean_of(rest);
   overview_.paths.resize(traced.size());
-  overview_.around.axis = bounds(rest).center();
+  overview_.origin = local_origin(bounds(run_.surface.points));
+  overview_.around.axis = bounds(rest).center() - overview_.origin;
   Extent still{{}, overview_.around}, followed = still;
   FramesInOrder frames(run_, options_.ahead);
   Box body, body_followed;
@@ -248,6 +250,7 @@ void DrawnRun::read_overview() {
     farthest = std::max(farthest, overview_.travel.back().norm());
     body.extend(now), body_followed.extend(now.translated(-overview_.travel.back()));
     Snapshot snapshot = snapshot_of(run_, std::move(frame), 0);
+    sinew::shift(snapshot, -overview_.origin);
     still.extend(options_.view, snapshot);
     sinew::shift(snapshot, -overview_.travel.back());
     followed.extend(options_.view, snapshot);
@@ -259,14 +262,15 @@ void DrawnRun::read_overview() {
   check_plane(body);
   overview_.plane =
       options_.plane ? DrawnPlane(*options_.plane) : DrawnPlane(run_, turns, options_.view);
-  overview_.obstacle_space = obstacle_space(follows ? body_followed : body);
+  overview_.obstacle_space =
+      obstacle_space((follows ? body_followed : body).translated(-overview_.origin));
   add_surroundings(follows ? followed : still);
 }
 
 /// Sets the extents of the overview: those of the body, and of what is around it.
 void DrawnRun::add_surroundings(Extent extent) {
   const auto add = [&](Snapshot& snapshot, std::size_t index) {
-    sinew::shift(snapshot, -travel(index));
+    sinew::shift(snapshot, -overview_.origin - travel(index));
     extent.extend(options_.view, snapshot);
   };
   for (std::size_t i = 0; i < run_.obstacle_rows.size(); ++i) {
@@ -468,10 +472,9 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   if (view == View::halves) halve(snapshot);
   if (view == View::cut) open_skin(snapshot, plane);
   if (view == View::arrows) add_arrows(snapshot, index, drawn, plane);
-  if (const Vec3 moved = travel(index); !moved.isZero(0)) {
-    sinew::shift(snapshot, -moved);
-    snapshot.caption += ",  " + three_digits(moved.norm()) + " m on";
-  }
+  const Vec3 moved = travel(index);
+  sinew::shift(snapshot, -overview_.origin - moved);
+  if (!moved.isZero(0)) snapshot.caption += ",  " + three_digits(moved.norm()) + " m on";
   return snapshot;
 }
 

@@ -51,6 +51,8 @@ struct RunOverview {
   std::vector<double> shift;  ///< per frame: root mean square of the particles' displacements, m
   /// Per frame: how far the camera has followed the body over the ground, m; empty: it stays.
   std::vector<Vec3> travel;
+  /// Near the body, m: what is drawn is relative to it, so that runs far apart are compared.
+  Vec3 origin = Vec3::Zero();
   Box frame;                ///< around the body at all times, in the camera's directions
   Cylinder around;          ///< the upright axis through its middle at rest, at all times
   Box obstacle_space = {};  ///< around it, m

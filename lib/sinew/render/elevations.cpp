@@ -8,11 +8,16 @@
 
 namespace sinew {
 
-double Ticks::at(int tick) const {
+double Ticks::at(std::int64_t tick) const {
   // Divided rather than multiplied by negative powers, which are not exact.
   const double power = std::pow(10.0, std::abs(exponent));
-  const double steps = static_cast<double>(mantissa) * tick;
+  const double steps = mantissa * static_cast<double>(tick);
   return exponent < 0 ? steps / power : steps * power;
+}
+
+std::int64_t Ticks::base() const {
+  constexpr std::int64_t far = 1000, round = 10;
+  return std::min(std::abs(first), std::abs(last)) < far ? 0 : first / round * round;
 }
 
 Ticks ticks_over(double low, double high, double step) {
@@ -23,8 +28,9 @@ Ticks ticks_over(double low, double high, double step) {
   for (const int mantissa : {5, 2, 1})
     if (mantissa * power >= step * (1 - 1e-9)) ticks.mantissa = mantissa;
   const double distance = ticks.mantissa * power;
-  ticks.first = static_cast<int>(std::floor(low / distance + 1e-9));
-  ticks.last = std::max(ticks.first + 1, static_cast<int>(std::ceil(high / distance - 1e-9)));
+  ticks.first = static_cast<std::int64_t>(std::floor(low / distance + 1e-9));
+  ticks.last =
+      std::max(ticks.first + 1, static_cast<std::int64_t>(std::ceil(high / distance - 1e-9)));
   return ticks;
 }
 
@@ -99,6 +105,14 @@ Camera camera_of(const Elevation& elevation, const Plan& plan) {
   return {elevation.view, Box(low, low + size)};
 }
 
+/// "x (m)", "x - 403000 (m)"
+std::string axis_title(const std::string& name, const Ticks& ticks) {
+  const double from = ticks.at(ticks.base());
+  const std::string less =
+      from == 0 ? "" : (from < 0 ? " + " : " - ") + number_text(std::abs(from));
+  return name + less + " (m)";
+}
+
 /// A frame with ticks outside of it and their numbers in meters.
 void draw_axes(Canvas& page, const Elevation& elevation, const Plan& plan) {
   const int x = elevation.x, right = x + elevation.width, bottom = plan.top + plan.height;
@@ -108,22 +122,24 @@ void draw_axes(Canvas& page, const Elevation& elevation, const Plan& plan) {
   page.fill(x, bottom, elevation.width, 1, palette::faint_ink);
   page.fill(x, plan.top, 1, plan.height, palette::faint_ink);
   numbers.align = Align::center;
-  for (int k = elevation.ticks.first; k <= elevation.ticks.last; ++k) {
+  for (auto k = elevation.ticks.first; k <= elevation.ticks.last; ++k) {
     const double value = elevation.ticks.at(k);
     const int at = x + static_cast<int>((value - elevation.ticks.low()) / plan.pixel);
     page.fill(at, bottom, 1, tick, palette::faint_ink);
-    page.write(number_text(value), at, bottom + tick + 2, numbers);
+    page.write(number_text(elevation.ticks.at(k - elevation.ticks.base())), at, bottom + tick + 2,
+               numbers);
   }
-  page.write(std::string(elevation.across) + " (m)", (x + right) / 2,
+  page.write(axis_title(elevation.across, elevation.ticks), (x + right) / 2,
              bottom + tick + line_height(numbers), numbers);
   numbers.align = Align::right;
-  for (int k = plan.up.first; k <= plan.up.last; ++k) {
+  for (auto k = plan.up.first; k <= plan.up.last; ++k) {
     const double value = plan.up.at(k);
     const int at = bottom - static_cast<int>((value - plan.up.low()) / plan.pixel);
     page.fill(x - tick, at, tick, 1, palette::faint_ink);
-    page.write(number_text(value), x - tick - 4, at - 3 * numbers.size / 5, numbers);
+    page.write(number_text(plan.up.at(k - plan.up.base())), x - tick - 4, at - 3 * numbers.size / 5,
+               numbers);
   }
-  page.write("z (m)", x - 4, plan.top - 2 * numbers.size, numbers);
+  page.write(axis_title("z", plan.up), x - 4, plan.top - 2 * numbers.size, numbers);
   TextStyle title = plan.words;
   title.align = Align::center;
   page.write(elevation.title, (x + right) / 2, plan.words.size / 3, title);

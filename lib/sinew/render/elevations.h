@@ -4,6 +4,7 @@
 //     write_png(elevations(painter, snapshot, {.width = 1280}).pixels(), "scene.png");
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <sinew/render/canvas.h>
@@ -14,10 +15,12 @@ namespace sinew {
 /// Round numbers (1, 2 or 5 times a power of ten apart) from the last one below `low` to the first
 /// one above `high`.
 struct Ticks {
-  int mantissa = 1, exponent = 0;  ///< of the step
-  int first = 0, last = 1;         ///< in steps
+  int mantissa = 1, exponent = 0;    ///< of the step
+  std::int64_t first = 0, last = 1;  ///< in steps
 
-  double at(int tick) const;
+  double at(std::int64_t tick) const;
+  /// The tick from which others are counted: 0, or one of them where all are many steps from 0.
+  std::int64_t base() const;
   double low() const { return at(first); }
   double high() const { return at(last); }
 };

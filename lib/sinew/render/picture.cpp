@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <sinew/core/error.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/parallel.h>
 #include <sinew/render/detail/actors.h>
 #include <sinew/render/detail/ground_shadow.h>
@@ -118,6 +119,26 @@ void write_labels(Image& image, const Snapshot& snapshot, const PictureOptions& 
                  image.width / 2 + static_cast<int>(at.x() + snapshot.radius / pixel) + 4,
                  image.height / 2 - static_cast<int>(at.y()), options.paper);
   }
+}
+
+/// A point near what the camera shows, where graphics would lose places: they have single
+/// precision.
+Vec3 origin_of(const Camera& camera) {
+  if (camera.frame.isEmpty()) return Vec3::Zero();
+  const Vec3 center = camera.view.transpose() * camera.frame.center();
+  const Vec3 half = camera.frame.diagonal().norm() / 2 * Vec3::Ones();
+  return local_origin(Box(center - half, center + half));
+}
+
+Snapshot moved(Snapshot snapshot, const Vec3& by) {
+  shift(snapshot, by);
+  snapshot.obstacle_space.translate(by);
+  return snapshot;
+}
+
+PictureOptions moved(PictureOptions options, const Vec3& by) {
+  options.camera.frame.translate(options.camera.view * by);
+  return options;
 }
 
 }  // namespace
@@ -261,7 +282,9 @@ void Painter::put_forces(Exposure& picture, const Snapshot& snapshot) {
 
 Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
   check(snapshot, skin_, options);
-  const Image image = drawn(snapshot, options);
+  const Vec3 origin = origin_of(options.camera);
+  const Image image = origin.isZero(0) ? drawn(snapshot, options)
+                                       : drawn(moved(snapshot, -origin), moved(options, -origin));
   return options.finish == Finish::quick ? with_smooth_edges(image) : image;
 }
 
