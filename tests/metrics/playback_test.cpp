@@ -97,6 +97,33 @@ TEST(Playback, IsWrittenWithPlacesAndValuesOfEveryFrame) {
   EXPECT_NEAR(json["fields"][0]["high"].get<double>(), 0.02, 1e-6);  // the displacement
 }
 
+TEST(Playback, FarFromTheOriginIsAsAtIt) {
+  const auto shown = [](const Vec3& at) {
+    const RestBody body = rest_body(moved_to(at, box_input()));
+    Playback playback = whole_playback(body, 3);
+    const Box all = box_of(playback);
+    add_obstacles(playback, 1, Box(all.min() - all.sizes(), all.max() + all.sizes()), body.surface);
+    return playback;
+  };
+  const Playback near = shown(Vec3::Zero());
+  for (const double far : {0x1p10, 0x1p17, 0x1p23}) {
+    const Vec3 at(far * 2 * half_length, 0, 0);
+    const Playback there = shown(at);
+    EXPECT_LT((box_of(there).min() - at - box_of(near).min()).norm(), 1e-7 + 1e-9 * far * r);
+    const Vec3 shift = at - there.origin;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const auto places : {&PlaybackFrame::particles, &PlaybackFrame::surface,
+                                &PlaybackFrame::bones, &PlaybackFrame::obstacles}) {
+        const std::vector<float>&found = there.frames[k].*places, &all = near.frames[k].*places;
+        ASSERT_EQ(found.size(), all.size());
+        for (std::size_t i = 0; i < all.size(); ++i)
+          EXPECT_NEAR(found[i], all[i] + shift[static_cast<int>(i % 3)], 1e-6 * half_length) << far;
+      }
+    EXPECT_LT(box_of(side_by_side(near, there, {"a: ", "b: "})).sizes().maxCoeff(),
+              3 * box_of(near).sizes().maxCoeff());
+  }
+}
+
 TEST(Playback, WritesTheForcesOfSupportsAndLoads) {
   const RestBody body = rest_body(box_input());
   Playback playback = whole_playback(body, 2);

@@ -77,6 +77,14 @@ inline RestInput box_input() {
   return input;
 }
 
+/// The same body elsewhere.
+inline RestInput moved_to(const Vec3& shift, RestInput input) {
+  for (Vec3& point : input.positions) point += shift;
+  for (Vec3& point : input.surface.points) point += shift;
+  for (MeasuredBone& bone : input.bones) bone.rest.origin += shift;
+  return input;
+}
+
 /// Particles keep their volumes, with their weights as simulations find them (Pa).
 inline void keep_volumes(RestInput& input, double stiffness) {
   input.law.volume_stiffness = stiffness;

@@ -46,7 +46,7 @@ void add_forces(Playback& playback, const RunFiles& run,
     for (const ShownForce& one : forces.at(frame_of(frame.frame))) {
       playback.is_load.push_back(one.is_load);
       for (const Vec3& end : {one.from, Vec3(one.from + one.along)})
-        for (const double coordinate : end) frame.forces.push_back(static_cast<float>(coordinate));
+        append_place(frame.forces, end, playback.origin);
     }
   }
 }

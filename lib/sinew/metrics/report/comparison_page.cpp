@@ -156,6 +156,9 @@ Vec3 shift_aside(const Playback& first, const Playback& second) {
   const Vec3 size = one.sizes().cwiseMax(other.sizes());
   const int axis = size.x() >= size.y() ? 0 : 1;
   Vec3 shift = Vec3::Zero();
+  for (int k = 0; k < 3; ++k)  // a body far away would make both of them dots
+    if (std::abs(one.center()[k] - other.center()[k]) > 2 * size.maxCoeff())
+      shift[k] = one.min()[k] - other.min()[k];
   shift[axis] = one.max()[axis] - other.min()[axis] + gap * size[axis];
   return shift;
 }
@@ -247,7 +250,7 @@ void join_shape(Playback& playback, const Playback& second,
 Playback side_by_side(const Playback& first, const Playback& second,
                       const std::array<std::string, 2>& prefixes) {
   Playback playback = first;
-  const Vec3 shift = shift_aside(first, second);
+  const Vec3 shift = shift_aside(first, second) + second.origin - first.origin;
   playback.frames.clear();
   for (const PlaybackFrame& frame : first.frames) {
     const auto other =

@@ -41,8 +41,7 @@ void add_obstacles(Playback& playback, std::size_t frame, const Box& space,
                                   [&](const PlaybackFrame& one) { return one.frame == frame; });
   if (found == playback.frames.end()) return;
   for (const Vec3& corner : cut_to(space, obstacles))
-    for (const double coordinate : corner)
-      found->obstacles.push_back(static_cast<float>(coordinate));
+    append_place(found->obstacles, corner, playback.origin);
 }
 
 }  // namespace sinew

@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include <sinew/core/local_origin.h>
+
 namespace sinew {
 namespace {
 
@@ -63,13 +65,10 @@ void plan_particles(Playback& playback, const RestBody& rest, std::size_t bytes)
   for (const auto i : playback.particles) playback.bone.push_back(rest.bone_of[i]);
 }
 
-void append(std::vector<float>& out, const Vec3& point) {
-  for (int k = 0; k < 3; ++k) out.push_back(static_cast<float>(point[k]));
-}
-
-std::vector<float> coordinates(const Points& points, const std::vector<std::uint32_t>& chosen) {
+std::vector<float> coordinates(const Points& points, const std::vector<std::uint32_t>& chosen,
+                               const Vec3& origin) {
   std::vector<float> out;
-  for (const auto i : chosen) append(out, points[i]);
+  for (const auto i : chosen) append_place(out, points[i], origin);
   return out;
 }
 
@@ -144,6 +143,10 @@ std::span<const PlaybackField> playback_fields() {
   return fields;
 }
 
+void append_place(std::vector<float>& places, const Vec3& point, const Vec3& origin) {
+  for (int k = 0; k < 3; ++k) places.push_back(static_cast<float>(point[k] - origin[k]));
+}
+
 Box box_of(const Playback& playback) {
   Box box;
   for (const PlaybackFrame& frame : playback.frames)
@@ -151,7 +154,7 @@ Box box_of(const Playback& playback) {
          {&frame.particles, &frame.surface, &frame.bones, &frame.forces, &frame.obstacles})
       for (std::size_t i = 0; i + 2 < places->size(); i += 3)
         box.extend(Vec3((*places)[i], (*places)[i + 1], (*places)[i + 2]));
-  return box;
+  return box.isEmpty() ? box : box.translated(playback.origin);
 }
 
 bool Playback::wants(std::size_t frame) const {
@@ -186,6 +189,7 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double fraction
   playback.run_frames = frames;
   playback.run_particles = rest.particles();
   playback.run_points = rest.surface.points.size();
+  playback.origin = local_origin(bounds(rest.surface.points));
   const auto bytes_of = [&](std::size_t all) {
     return static_cast<std::size_t>(fraction * static_cast<double>(all));
   };
@@ -204,17 +208,18 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double fraction
 
 void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles) {
+  const Vec3& origin = playback.origin;
   PlaybackFrame snapshot{frame,
                          state.time,
-                         coordinates(state.positions, playback.particles),
-                         coordinates(state.surface_points, playback.points),
+                         coordinates(state.positions, playback.particles, origin),
+                         coordinates(state.surface_points, playback.points, origin),
                          {},
                          {}};
   for (std::size_t b = 0; b < rest.bones.size(); ++b) {
     const RigidFrame& bone = state.bones[b];
-    append(snapshot.bones, bone.origin);
+    append_place(snapshot.bones, bone.origin, origin);
     const double length = state.bone_lengths.empty() ? rest.bones[b].length : state.bone_lengths[b];
-    append(snapshot.bones, bone.origin + length * bone.rotation.col(0));
+    append_place(snapshot.bones, bone.origin + length * bone.rotation.col(0), origin);
   }
   for (const PlaybackField& field : playback_fields())
     snapshot.values.push_back(chosen_values(particles.*field.values, playback.particles));

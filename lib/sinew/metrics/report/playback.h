@@ -32,7 +32,7 @@ std::span<const PlaybackField> playback_fields();
 struct PlaybackFrame {
   std::size_t frame = 0;                   ///< of the run
   double time = 0;                         ///< s
-  std::vector<float> particles, surface;   ///< x y z each, m
+  std::vector<float> particles, surface;   ///< x y z each, m, from the playback's origin, as below
   std::vector<float> bones;                ///< head and tail, x y z each, m
   std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
   std::vector<float> forces = {};          ///< of supports and loads: both ends of arrows, m
@@ -47,6 +47,7 @@ struct Balls {
 };
 
 struct Playback {
+  Vec3 origin = Vec3::Zero();  ///< of the places in its frames, m: near the body
   std::size_t run_frames = 0, run_particles = 0, run_points = 0;  ///< before thinning
   std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
   std::vector<std::uint32_t> particles;                           ///< of the run, ascending
@@ -69,7 +70,7 @@ struct Playback {
   bool has(std::size_t frame) const;
 };
 
-/// Around all positions of all frames, m; empty where there are none.
+/// Around all positions of all frames, m, in the scene's coordinates; empty where there are none.
 Box box_of(const Playback& playback);
 
 /// A coarser skin on a subset of a surface's points, by vertex clustering (Rossignac and Borrel):
@@ -91,6 +92,9 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double fraction
 /// Inserts a frame in order of time.
 void add_frame(Playback& playback, std::size_t frame, const RestBody& rest, const FrameState& state,
                const ParticleValues& particles);
+
+/// Appends a point of the scene as one of the playback's frames.
+void append_place(std::vector<float>& places, const Vec3& point, const Vec3& origin);
 
 /// The triangles as far as they lie in `space` (m), three corners each.
 Points cut_to(const Box& space, const Triangles& surface);

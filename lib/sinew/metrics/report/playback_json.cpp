@@ -21,7 +21,7 @@ std::string base64_of(const std::vector<Number>& numbers) {
   return base64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
 }
 
-/// The cube that contains all positions of the playback.
+/// The cube that contains all places of the playback, from its origin.
 struct Cube {
   Vec3 low = Vec3::Zero();
   double edge = 1;
@@ -31,7 +31,7 @@ Cube cube_of(const Playback& playback) {
   const Box box = box_of(playback);
   if (box.isEmpty()) return {};
   const double edge = box.sizes().maxCoeff();
-  return {box.min(), edge > 0 ? edge : 1};
+  return {box.min() - playback.origin, edge > 0 ? edge : 1};
 }
 
 void quantize(std::vector<std::uint16_t>& out, const std::vector<float>& places, const Cube& cube) {
@@ -150,6 +150,7 @@ std::string corners_of(const Playback& playback) {
 
 std::string playback_json(const Playback& playback) {
   const Cube cube = cube_of(playback);
+  const Vec3 low = cube.low + playback.origin;
   const auto numbers = [](const std::vector<int>& all) {
     return base64_of(std::vector<std::int16_t>(all.begin(), all.end()));
   };
@@ -158,7 +159,7 @@ std::string playback_json(const Playback& playback) {
                        {"particles", playback.run_particles},
                        {"points", playback.run_points}}},
                      {"balls", balls_of(playback)},
-                     {"low", {cube.low.x(), cube.low.y(), cube.low.z()}},
+                     {"low", {low.x(), low.y(), low.z()}},
                      {"edge", cube.edge},
                      {"snapshots", snapshots_of(playback)},
                      {"particles", places_of(playback, cube, &PlaybackFrame::particles)},
