@@ -33,6 +33,16 @@ TEST(BoneMetrics, ABoneThatTurnsAloneLeavesItsFleshBehindByThatAngle) {
   EXPECT_NEAR(bones[1].adherence_max, 0, 1e-12);
 }
 
+TEST(BoneMetrics, TheAngleOfALimbIsTheSameAnywhere) {
+  for (const double far : {0.0, 1e3, 1e5, 1e7}) {
+    RestInput input = moved_to({far * 2 * half_length, 0, 0}, box_input());
+    const RestBody body = rest_body(input);
+    FrameState state = at_rest(body);
+    state.bones[1].rotation = turned(20, {1, 2, 3}) * state.bones[1].rotation;
+    EXPECT_NEAR(bones_of(body, state)[1].turn_error, 20, 20 * std::max(1e-10, 1e-10 * far)) << far;
+  }
+}
+
 TEST(BoneMetrics, SwellingIsTheMeanWayOutwards) {
   const RestBody body = rest_body(box_input());
   const double swell = 0.1;

@@ -217,6 +217,39 @@ TEST(Measure, ASpinningBodyHasTheMomentaOfARigidOne) {
       1e-10);
 }
 
+/// Bent, twisted and stretched, on its way.
+FrameState deformed(const RestBody& body, const Vec3& at) {
+  FrameState state = moved(body, [&](const Vec3& point) -> Vec3 {
+    const Vec3 p = point - at;
+    const Vec3 twisted_p = turned(300 * p.z(), {0.3, 0, 1}) * Vec3(1.1 * p.x(), p.y(), 1.2 * p.z());
+    return twisted_p + Vec3(0.01, 0.02, 0.03) + at;
+  });
+  for (std::size_t i = 0; i < body.particles(); ++i) {
+    const Vec3 arm = state.positions[i] - at;
+    state.velocities[i] = Vec3(1, -2, 3) + Vec3(5, 2.5, -10).cross(arm) + 40 * arm.x() * arm;
+  }
+  state.bones[1].rotation = turned(30, {1, 2, 3}) * state.bones[1].rotation;
+  state.bones[1].origin += Vec3(0.01, 0.02, 0.03);
+  return state;
+}
+
+TEST(Measure, ABodyFarAwayHasTheMetricsOfOneAtTheOrigin) {
+  const RestBody near = rest_body(box_input());
+  const FrameMetrics expected = measure(near, deformed(near, Vec3::Zero()));
+  for (const auto& [power, tolerance] : {std::pair(10, 1e-6), {17, 1e-5}, {23, 1e-3}}) {
+    const Vec3 at(std::ldexp(0.25, power), 0, 0);
+    const RestBody far = rest_body(moved_to(at, box_input()));
+    FrameMetrics found = measure(far, deformed(far, at));
+    found.center_x -= at.x();
+    for (const Metric& metric : metrics_table()) {
+      const double value = expected.*metric.value, other = found.*metric.value;
+      ASSERT_EQ(std::isnan(value), std::isnan(other)) << metric.name;
+      if (std::isnan(value)) continue;
+      EXPECT_NEAR(other, value, tolerance * std::max(1e-3, std::abs(value))) << metric.name;
+    }
+  }
+}
+
 TEST(Measure, PullingTheHalvesApartBreaksTheCrossingPairs) {
   const RestBody body = rest_body(box_input());
   const FrameMetrics m = measure(body, moved(body, [](const Vec3& p) -> Vec3 {

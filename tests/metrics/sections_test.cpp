@@ -69,6 +69,22 @@ TEST(Sections, OfAPrismAreItsSquareAtEveryStepOfBothBones) {
   }
 }
 
+TEST(Sections, AreTheSameFarAway) {
+  for (const double far : {1e3, 1e5, 1e7}) {
+    Triangles surface = prism();
+    std::vector<MeasuredBone> bones = two_bones();
+    const Vec3 at(std::round(far), 0, 0);
+    for (Vec3& point : surface.points) point += at;
+    for (MeasuredBone& bone : bones) {
+      bone.rest.origin += at;
+      bone.rest.rotation = turned(1e-15, {1, 2, 3}) * bone.rest.rotation;  // rounding
+    }
+    const auto sections = make_sections(surface, bones, [](const Vec3&) { return false; });
+    ASSERT_EQ(sections.size(), 2u * (sections_per_bone + 1) - 1) << far;
+    for (const Section& section : sections) EXPECT_NEAR(section.area, 4 * half * half, 1e-15 * far);
+  }
+}
+
 TEST(Sections, ATwistByLinearBlendPinchesThemAsTheSquareOfTheCosine) {
   const Triangles surface = prism();
   for (const double angle : {90.0, 180.0}) {

@@ -70,16 +70,19 @@ Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) 
   return miss;
 }
 
-/// Moments of where the particles of a limb are (x) and were at rest (X).
+/// Moments of where the particles of a limb are (x) and were at rest (X), about its first particle:
+/// about a point far away they would lose all digits.
 struct LimbMoments {
   double count = 0;
+  Vec3 first_x, first_X;
   Vec3 x = Vec3::Zero(), X = Vec3::Zero();
   Mat3 xX = Mat3::Zero(), XX = Mat3::Zero();
 
   void add(const Vec3& now, const Vec3& rest) {
-    ++count;
-    x += now, X += rest;
-    xX += now * rest.transpose(), XX += rest * rest.transpose();
+    if (count++ == 0) first_x = now, first_X = rest;
+    const Vec3 at = now - first_x, at_rest = rest - first_X;
+    x += at, X += at_rest;
+    xX += at * at_rest.transpose(), XX += at_rest * at_rest.transpose();
   }
 };
 

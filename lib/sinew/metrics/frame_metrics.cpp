@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <sinew/core/error.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
 #include <sinew/metrics/detail/surface_distortion.h>
@@ -91,8 +92,9 @@ void add_momentum(FrameMetrics& out, const RestBody& rest, const FrameState& sta
     return rest.mass_of(i) * state.velocities[i];
   };
   const Vec3 linear = vector_sum(n, momentum);
-  const Vec3 angular =
-      vector_sum(n, [&](std::size_t i) -> Vec3 { return state.positions[i].cross(momentum(i)); });
+  const Vec3 about = local_origin(bounds(rest.surface.points));
+  const Vec3 angular = vector_sum(
+      n, [&](std::size_t i) -> Vec3 { return (state.positions[i] - about).cross(momentum(i)); });
   out.momentum_x = linear.x(), out.momentum_y = linear.y(), out.momentum_z = linear.z();
   out.angular_momentum_x = angular.x();
   out.angular_momentum_y = angular.y();

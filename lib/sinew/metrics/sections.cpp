@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -111,9 +113,13 @@ bool surrounds(const Ring& ring, const Points& points, const Vec3& center, const
 
 std::optional<Section> section_at(const Triangles& surface, const MeasuredBone& bone,
                                   const Vec3& center) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // of a coordinate
   std::vector<double> height(surface.points.size());
-  for (std::size_t i = 0; i < height.size(); ++i)
-    height[i] = bone.axis().dot(surface.points[i] - center);
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    const Vec3& point = surface.points[i];
+    height[i] = bone.axis().dot(point - center);
+    if (std::abs(height[i]) < rounding * point.cwiseAbs().maxCoeff()) height[i] = 0;
+  }
   std::optional<Section> least;
   for (Ring& ring : Cut(surface, height).rings()) {
     const double area = area_vector(ring, surface.points).dot(bone.axis());
