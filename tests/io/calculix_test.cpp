@@ -200,6 +200,12 @@ TEST_F(Calculix, DecksHoldEveryStepAndNumbersThatCcxCanRead) {
         "** clamp\n*NSET, NSET=SUPPORT_0\n1,2,\n"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
   EXPECT_NE(text.find("two?lines\n"), std::string::npos);
+  Deck far = deck();
+  far.mesh.nodes[3] = {403000.123456789, -8388608.1234567895, 1.0 / 3};
+  write_deck(folder / "far.inp", far);
+  EXPECT_NE(text_of(folder / "far.inp")
+                .find("\n4,403000.123456789,-8388608.12345679,3.33333333333e-01\n"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -87,6 +87,34 @@ TEST_F(MovingSurface, OfManyMomentsTakesSomeAndTheLast) {
     expect_shown(path, interval * moment, at(moment));
 }
 
+TEST_F(MovingSurface, FarAwayIsExactFromItsOrigin) {
+  for (const double far : {1e3, 403000.123, 1e7}) {
+    const Vec3 origin(std::round(far), -std::round(far), 64);
+    PointCache cache(folder / "surface.pc2", surface_.points.size(), 0, origin);
+    for (const double moment : {0.0, 1.0}) {
+      Points points = at(moment);
+      for (Vec3& point : points) point += Vec3(far, -far, 64.25);
+      cache.add(points);
+    }
+    cache.close();
+    const auto told = nlohmann::json::parse(text_of(origin_file(folder / "surface.pc2")));
+    EXPECT_EQ(told["origin"].get<std::vector<double>>(),
+              (std::vector<double>{origin.x(), origin.y(), origin.z()}));
+    const std::vector<float> places = CachedPoints(folder / "surface.pc2").sample(1);
+    write_moving_surface(folder / "far.glb", surface_.faces, folder / "surface.pc2", times_of(2),
+                         {}, origin);
+    const PolygonSoup soup = read_gltf(folder / "far.glb");
+    ASSERT_EQ(soup.points.size(), surface_.points.size());
+    for (std::size_t i = 0; i < surface_.points.size(); ++i) {
+      const Vec3 expected = at(0)[i] + Vec3(far, -far, 64.25);
+      EXPECT_LT((soup.points[i] - Vec3(expected.y(), expected.z(), expected.x())).norm(),
+                single + 1e-15 * far);
+      const Vec3 moved = Vec3(places[3 * i], places[3 * i + 1], places[3 * i + 2]) + origin;
+      EXPECT_LT((moved - at(1)[i] - Vec3(far, -far, 64.25)).norm(), 10 * single + 1e-15 * far);
+    }
+  }
+}
+
 TEST_F(MovingSurface, OfACacheThatIsNoneIsRefused) {
   put(folder / "surface.pc2", "POINTCACHE2");
   const auto write = [&] {

@@ -148,6 +148,23 @@ TEST_F(ParticleFormats, Bgeo) {
   EXPECT_EQ(bytes.substr(41 + names, 16), first);
 }
 
+TEST_F(ParticleFormats, BgeoOfABodyFarAwayTellsItsOrigin) {
+  const std::string near = written("bgeo", cloud(), "near.bgeo");
+  ParticleCloud far = cloud();
+  far.origin = {8388608, -4096, 2};
+  for (Vec3& place : far.positions) place += far.origin;
+  const std::string bytes = written("bgeo", far, "far.bgeo");
+  const std::string origin("\x4b\0\0\0\xc5\x80\0\0\x40\0\0\0", 12);
+  const std::size_t names = near.size() - 2 - 3 * 36, more = 2 + 6 + 2 + 4 + 12;
+  ASSERT_EQ(bytes.size(), near.size() + more + 3 * 12);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string point = bytes.substr(names + more + 48 * i, 48);
+    EXPECT_EQ(point.substr(36), origin);
+    EXPECT_EQ(point.substr(12, 24), near.substr(names + 36 * i + 12, 24));
+  }
+  EXPECT_EQ(bytes.substr(names + more + 4, 8), near.substr(names + 4, 8));
+}
+
 TEST_F(ParticleFormats, GltfPointsNearTheirMiddle) {
   ParticleCloud far = cloud();
   for (Vec3& place : far.positions) place.x() += 1e7;

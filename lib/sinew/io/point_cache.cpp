@@ -92,10 +92,30 @@ void write_obj(const std::filesystem::path& path, const Triangles& surface,
   file.finish();
 }
 
-PointCache::PointCache(const std::filesystem::path& path, std::size_t points, std::size_t kept)
+std::filesystem::path origin_file(const std::filesystem::path& cache) {
+  return cache.string() + ".origin.json";
+}
+
+namespace {
+
+void write_origin(const std::filesystem::path& path, const Vec3& origin) {
+  NewFile file(path);
+  const std::string text = "{\"origin\": [" + number_text(origin.x()) + ", " +
+                           number_text(origin.y()) + ", " + number_text(origin.z()) +
+                           "], \"unit\": \"m\"}\n";
+  file.write(text.data(), text.size());
+  file.finish();
+}
+
+}  // namespace
+
+PointCache::PointCache(const std::filesystem::path& path, std::size_t points, std::size_t kept,
+                       const Vec3& origin)
     : points_(points),
       samples_(kept),
+      origin_(origin),
       file_(path, kept > 0 ? header_size + kept * points * point_size : 0) {
+  if (!origin.isZero(0)) write_origin(origin_file(path), origin);
   if (kept > 0) {
     count_samples();
     return;
@@ -114,7 +134,7 @@ void PointCache::add(const Points& points) {
   std::string bytes;
   bytes.reserve(point_size * points_);
   for (const Vec3& point : points)
-    for (const double coordinate : point) add_bytes(bits_of(coordinate), bytes);
+    for (int axis = 0; axis < 3; ++axis) add_bytes(bits_of(point[axis] - origin_[axis]), bytes);
   file_.add(bytes.data(), bytes.size());
   ++samples_;
   count_samples();

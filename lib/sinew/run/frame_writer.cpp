@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <sinew/core/error.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/io/gltf/moving_surface.h>
 #include <sinew/run/run_files.h>
 #include <sinew/settings/text_file.h>
@@ -121,7 +122,9 @@ void FrameWriter::begin_export(const Triangles& surface, std::size_t kept, Surfa
   look_ = std::move(look);
   for (std::string& library : look_.libraries) library = path_in(folder_, library);
   write_obj(folder_ / "surface.obj", surface, look_);
-  export_ = std::make_unique<PointCache>(folder_ / "surface.pc2", surface.points.size(), kept);
+  export_origin_ = local_origin(bounds(surface.points));
+  export_ = std::make_unique<PointCache>(folder_ / "surface.pc2", surface.points.size(), kept,
+                                         export_origin_);
 }
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettings& output,
@@ -212,10 +215,12 @@ void FrameWriter::close() {
   if (!export_) return;
   export_->close();
   for (const char* name : {"surface.obj", "surface.pc2"}) checksums_->add(name);
+  if (!export_origin_.isZero(0)) checksums_->add("surface.pc2.origin.json");
   if (written_ == 0) return;  // nothing moves
   std::vector<double> times;
   for (const PvdRow& row : skins_.rows()) times.push_back(row.time);
-  write_moving_surface(folder_ / "surface.glb", faces_, folder_ / "surface.pc2", times, look_);
+  write_moving_surface(folder_ / "surface.glb", faces_, folder_ / "surface.pc2", times, look_,
+                       export_origin_);
   checksums_->add("surface.glb");
 }
 

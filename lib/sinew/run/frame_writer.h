@@ -95,6 +95,7 @@ class FrameWriter {
   std::optional<ProbeTable> probe_table_;      ///< where the scene has some
   std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;
+  Vec3 export_origin_ = Vec3::Zero();                  ///< of its places, m
   SurfaceLook look_;                                   ///< of the exported surface
   std::vector<std::array<int, 3>> faces_;              ///< of the surface
   std::optional<Series> bond_series_, volume_series_;  ///< where the scene requests it

@@ -29,7 +29,8 @@ bool written_by_a_run(const fs::path& relative) {
   static const std::regex ours(
       "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|view\\.pvsm|checksums\\.sfv|"
       "report\\.html|"
-      "metrics(_bones)?\\.(csv|json)|(bones|probes|sections|supports)\\.csv|surface\\.(obj|pc2|glb)"
+      "metrics(_bones)?\\.(csv|json)|(bones|probes|sections|supports)\\.csv|surface\\.(obj|pc2|"
+      "pc2\\.origin\\.json|glb)"
       "|blowup\\.vtu|"
       "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values|volume)\\."
       "(pvd|vtu\\.series))("

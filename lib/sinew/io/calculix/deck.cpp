@@ -30,7 +30,7 @@ void write_nodes(NewFile& file, const VolumeMesh& mesh) {
   write_text(file, "*NODE, NSET=ALL\n");
   write_rows(file, mesh.nodes.size(), [&](std::string& text, std::size_t i) {
     const Vec3& p = mesh.nodes[i];
-    put_row(text, ',', i + 1, short_number(p.x()), short_number(p.y()), short_number(p.z()));
+    put_row(text, ',', i + 1, short_place(p.x()), short_place(p.y()), short_place(p.z()));
   });
 }
 

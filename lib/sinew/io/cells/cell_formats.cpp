@@ -65,7 +65,7 @@ void add_abaqus(NewFile& file, const Dataset& cells) {
   write_text(file, "*NODE, NSET=ALL\n");
   write_rows(file, cells.points.size(), [&](std::string& text, std::size_t i) {
     const Vec3& p = cells.points[i];
-    put_row(text, ',', i + 1, short_number(p.x()), short_number(p.y()), short_number(p.z()));
+    put_row(text, ',', i + 1, short_place(p.x()), short_place(p.y()), short_place(p.z()));
   });
   write_text(file, "*ELEMENT, TYPE=C3D4, ELSET=BODY\n");
   write_rows(file, cells.cells(), [&](std::string& text, std::size_t c) {

@@ -253,10 +253,11 @@ OrderedJson primitives_of(Moments& moments, const SplitSurface& surface, Content
 
 /// The file's JSON; declares the data in the order in which write_data() writes it.
 OrderedJson describe(Moments& moments, const SplitSurface& surface, const GltfMaterials& materials,
-                     std::span<const double> times, Contents& contents) {
+                     std::span<const double> times, const Vec3& origin, Contents& contents) {
   OrderedJson json = {{"asset", {{"version", "2.0"}, {"generator", "sinew"}}}, {"scene", 0}};
   json["scenes"] = list_of({{"nodes", list_of(0)}});
   json["nodes"] = list_of({{"name", "surface"}, {"mesh", 0}});
+  if (!origin.isZero(0)) json["nodes"][0]["translation"] = {origin.y(), origin.z(), origin.x()};
   OrderedJson mesh = {{"primitives", primitives_of(moments, surface, contents)}};
   // Weights default to 0, but VTK counts them.
   if (moments.targets() > 0) mesh["weights"] = std::vector<int>(moments.targets(), 0);
@@ -317,12 +318,12 @@ std::string chunk(std::size_t size, const char* kind) {
 void write_moving_surface(const std::filesystem::path& path,
                           const std::vector<std::array<int, 3>>& faces,
                           const std::filesystem::path& cache, std::span<const double> times,
-                          const SurfaceLook& look) {
+                          const SurfaceLook& look, const Vec3& origin) {
   SplitSurface surface = split_surface(faces, CachedPoints(cache).points(), look);
   const GltfMaterials materials = materials_of(surface, look);
   Moments moments(cache, surface);
   Contents contents;
-  std::string json = json_text(describe(moments, surface, materials, times, contents));
+  std::string json = json_text(describe(moments, surface, materials, times, origin, contents));
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::size_t size = 12 + 8 + json.size() + 8 + contents.bytes();
   const std::string head = "glTF" + little_endian(2) +

@@ -19,10 +19,11 @@ namespace sinew {
 /// of these `times` (s). Of more than 500 samples, or 1 GiB of them, every second, third, ... is
 /// taken, and the last. Of the `look` of the faces, coordinates, normals, layers and materials are
 /// written: vertices are split where these differ, and normals move with the faces around them.
-/// Throws bad input where `cache` is not a PC2, and not written.
+/// `origin`: that of the cache (m), to which the surface's node is translated. Throws bad input
+/// where `cache` is not a PC2, and not written.
 void write_moving_surface(const std::filesystem::path& path,
                           const std::vector<std::array<int, 3>>& faces,
                           const std::filesystem::path& cache, std::span<const double> times,
-                          const SurfaceLook& look = {});
+                          const SurfaceLook& look = {}, const Vec3& origin = Vec3::Zero());
 
 }  // namespace sinew

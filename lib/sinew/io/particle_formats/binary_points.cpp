@@ -48,11 +48,11 @@ void put_attribute(std::string& bytes, std::string_view name, BgeoType type, std
 }
 
 std::string bgeo_head(const ParticleCloud& cloud) {
-  const bool moves = !cloud.velocities.empty();
+  const bool moves = !cloud.velocities.empty(), is_far = !cloud.origin.isZero(0);
   std::string head = "BgeoV";
   for (const std::size_t word : {std::size_t{5}, cloud.positions.size()})
     put_bytes<big>(head, static_cast<std::uint32_t>(word));
-  for (const std::uint32_t word : {0u, 0u, 0u, moves ? 6u : 5u, 0u, 0u, 0u})
+  for (const std::uint32_t word : {0u, 0u, 0u, 5u + moves + is_far, 0u, 0u, 0u})
     put_bytes<big>(head, word);  // primitives, groups of both, attributes of points and others
   put_attribute(head, "id", BgeoType::integer, 1);
   put_attribute(head, "pscale", BgeoType::real, 1);
@@ -60,6 +60,7 @@ std::string bgeo_head(const ParticleCloud& cloud) {
   put_attribute(head, "component", BgeoType::integer, 1);
   put_attribute(head, "region", BgeoType::integer, 1);
   if (moves) put_attribute(head, "velocity", BgeoType::vector, 3);
+  if (is_far) put_attribute(head, "origin", BgeoType::real, 3);  // Houdini turns vectors
   return head;
 }
 
@@ -110,7 +111,7 @@ std::string gltf_json(const ParticleCloud& cloud, const Box& box, const Vec3& ce
 void add_bgeo(NewFile& file, const ParticleCloud& cloud) {
   write_text(file, bgeo_head(cloud));
   write_rows(file, cloud.positions.size(), [&](std::string& bytes, std::size_t i) {
-    put_floats<big>(bytes, cloud.positions[i]);
+    put_floats<big>(bytes, cloud.positions[i] - cloud.origin);
     put_float<big>(bytes, 1);  // the fourth, homogeneous coordinate
     put_bytes<big>(bytes, static_cast<std::uint32_t>(cloud.id[i]));
     put_float<big>(bytes, cloud.radius);
@@ -118,6 +119,7 @@ void add_bgeo(NewFile& file, const ParticleCloud& cloud) {
     put_bytes<big>(bytes, static_cast<std::uint32_t>(cloud.component[i]));
     put_bytes<big>(bytes, static_cast<std::uint32_t>(cloud.region[i]));
     if (!cloud.velocities.empty()) put_floats<big>(bytes, cloud.velocities[i]);
+    if (!cloud.origin.isZero(0)) put_floats<big>(bytes, cloud.origin);
   });
   write_text(file, {'\0', '\xff'});
 }

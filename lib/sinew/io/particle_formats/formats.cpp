@@ -7,6 +7,7 @@
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
 #include <sinew/io/particle_formats/detail/writers.h>
@@ -126,6 +127,7 @@ void write_particles_vtu(const std::filesystem::path& path, const ParticleCloud&
 ParticleCloud cloud_of(const BodyFile& body, double density, std::span<const std::string> bones) {
   ParticleCloud cloud;
   cloud.positions = positions_of(body.particles);
+  cloud.origin = local_origin(bounds(cloud.positions));
   cloud.radius = body.particles.radius;
   cloud.mass = body.particles.mass;
   cloud.volume = cloud.mass / density;

@@ -34,6 +34,7 @@ struct ParticleCloud {
   std::vector<std::array<std::uint32_t, 2>> bonds;  ///< rows of two particles each
   double time = 0;                                  ///< s
   std::int64_t frame = 0;
+  Vec3 origin = Vec3::Zero();  ///< to which formats in single precision are relative, m
 };
 
 /// The body at rest, without bonds; `density` (kg/m^3) gives the volumes, `bones` the names of its

@@ -6,6 +6,7 @@
 #include <sinew/body/grouping.h>
 #include <sinew/core/arrays.h>
 #include <sinew/core/hash.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
@@ -122,6 +123,8 @@ void RunLog::describe(const Prepared& prepared) {
   const Settings& settings = prepared.settings;
   const StepChoice& steps = prepared.steps;
   record_["particles"] = prepared.body.rest.size();
+  if (const Vec3 at = local_origin(bounds(prepared.surface.triangles.points)); !at.isZero(0))
+    record_["origin"] = {at.x(), at.y(), at.z()};
   record_["radius"] = prepared.body.material.pair.r;
   record_["particle_mass"] = prepared.body.material.mass;
   record_["material"] = material_of(prepared.body.material);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -47,6 +48,14 @@ inline std::string short_number(double value) {
   const auto end =
       std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 11).ptr;
   return {digits, end};
+}
+
+/// A coordinate (m). Far from the origin all of its digits are needed, and fit.
+inline std::string short_place(double value) {
+  constexpr double far = 1e3;
+  std::string digits;
+  if (std::abs(value) >= far) put_value(digits, value);
+  return digits.empty() || digits.size() > 20 ? short_number(value) : digits;
 }
 
 inline void put_value(std::string& text, const Vec3& v) {
