@@ -83,6 +83,25 @@ TEST(Relaxation, EndsWhereADampedMotionDoes) {
   EXPECT_GT(test::largest_distance(relaxed.particles(), particles_at(machine.rest, r, 1)), 0.1 * r);
 }
 
+/// Under a load that rounding of places there would hide.
+TEST(Relaxation, FarFromTheOriginIsThatAtIt) {
+  const auto bent = [](const Vec3& at) {
+    Machine machine = cantilever();
+    machine.settings.solver.gravity.setZero();
+    machine.world.loads = {machine.pull(machine.top(), {2e-5, 1e-5, 5e-5})};
+    for (Vec3& place : machine.rest) place += at;
+    machine.world.supports[0].pivot = machine.world.loads[0].pivot = at;
+    return machine.at_rest();
+  };
+  const Vec3 far(std::ldexp(0.25, 24), 0, 0);
+  Simulation here = bent(Vec3::Zero()), there = bent(far);
+  EXPECT_LE(there.relaxation()->last().residual, 1e-6);
+  const Vec3 reaction = sum_of(here.support_reactions());
+  EXPECT_LT((sum_of(there.support_reactions()) - reaction).norm(), 1e-3 * reaction.norm());
+  const Points near = positions_of(here.particles()), away = positions_of(there.particles());
+  for (std::size_t i = 0; i < near.size(); ++i) EXPECT_LT((away[i] - far - near[i]).norm(), 1e-8);
+}
+
 /// A bar of 45 layers, pressed by this fraction of its length within a second.
 Machine pressed(double fraction) {
   Machine machine(bonded);

@@ -48,6 +48,20 @@ TEST(FollowingPoints, FollowAffineMotionsExactly) {
     ASSERT_LT((now[k] - expected[k]).norm(), 1e-11 * r) << k;
 }
 
+TEST(FollowingPoints, FollowFarFromTheOriginAsAtIt) {
+  const Points rest = test::fcc_box(7, 7, 15, r);
+  const Triangles skin = around(rest);
+  const Vec3 far(std::ldexp(0.25, 24), 0, 0);  // 1e7 sizes, where places are 1e-9 m apart
+  const auto there = [&](const Points& points) {
+    return test::affine(points, Mat3::Identity(), far);
+  };
+  const FollowingPoints points = following(there(skin.points), there(rest), r);
+  const Mat3 F = Vec3(1.1, 0.9, 1.05).asDiagonal();
+  const Points now = points.at(there(test::affine(rest, F)));
+  for (std::size_t k = 0; k < now.size(); ++k)
+    ASSERT_LT((now[k] - far - F * skin.points[k]).norm(), 1e-8) << k;
+}
+
 TEST(FollowingPoints, OfASheetAndOfFewParticlesFollowTheirFeet) {
   Points sheet;
   for (int i = 0; i < 9; ++i)

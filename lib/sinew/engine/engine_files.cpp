@@ -106,7 +106,7 @@ void write_particles(const fs::path& file, const EngineRun& run, const Rows& row
     for (std::size_t i = begin; i < end; ++i) {
       double* row = piece.data() + (i - begin) * width;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        row[axis] = moving.x[axis][place[i]];
+        row[axis] = run.state.fixed_point_units.origin[axis] + moving.x[axis][place[i]];
         row[3 + axis] = moving.v[axis][place[i]];
       }
       rows.put(i, row + 6);
@@ -256,7 +256,7 @@ SimulationState read_engine_state(const EngineFolder& folder, std::int64_t steps
       if (!(piece[k] >= 0 && piece[k] < static_cast<double>(place.size()))) throw not_a_piece(file);
       const std::uint32_t at = place[static_cast<std::size_t>(piece[k])];
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        moving.x[axis][at] = piece[k + 1 + axis];
+        moving.x[axis][at] = piece[k + 1 + axis] - state.fixed_point_units.origin[axis];
         moving.v[axis][at] = piece[k + 4 + axis];
       }
     }

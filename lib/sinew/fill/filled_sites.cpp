@@ -21,8 +21,10 @@ constexpr int max_rounds = 6;
 constexpr double max_shrink = 3;  // more would be many times the requested sites
 
 FilledSites fill_at(const BodySpace& space, const PackOptions& options, double radius) {
-  FilledSites filled{
-      lattice_in(space.box, lattice_of(options.packing), radius, space.lattice_origin), {}, {}};
+  FilledSites filled{lattice_in(space.box, lattice_of(options.packing), radius,
+                                space.lattice_origin, space.placement.step()),
+                     {},
+                     {}};
   if (options.thickness) {
     filled.runs = runs_near(filled.lattice, space.surface.triangles, *options.thickness / 2);
     return filled;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sinew/core/local_origin.h>
 #include <sinew/core/particles.h>
 
 namespace sinew {
@@ -116,12 +117,12 @@ std::uint64_t Lattice::sites() const {
 }
 
 Lattice lattice_in(const Box& box, Packing packing, double radius,
-                   const std::optional<Vec3>& origin) {
+                   const std::optional<Vec3>& origin, double min_step) {
   const bool fcc = packing == Packing::fcc;
   const Vec3 center = origin.value_or(box.center());
   const Vec3 unit = fcc ? Vec3(Vec3::Constant(half_plane_spacing(radius)))
                         : Vec3(radius, radius / std::sqrt(3.0), radius * std::sqrt(8.0 / 3));
-  const double step = quantum(box, center, unit);
+  const double step = std::max(quantum(box, center, unit), min_step);
   Lattice lattice;
   lattice.packing = packing;
   lattice.radius = radius;
@@ -162,6 +163,8 @@ LatticeFrame::LatticeFrame(const Points& points, const Mat3& turn)
     : turn_(turn), turned_(turn != Mat3::Identity()) {
   const Box box = bounds(points);
   for (int axis = 0; axis < 3; ++axis) shift_[axis] = exact_shift(box.min()[axis], box.max()[axis]);
+  if (!local_origin(box).isZero(0))
+    step_ = std::ldexp(1.0, std::ilogb(box.center().cwiseAbs().maxCoeff()) - 51);
 }
 
 Triangles LatticeFrame::to_lattice(Triangles surface) const {

@@ -67,9 +67,10 @@ struct Lattice {
 };
 
 /// All sites within the box (not empty; a size below 1e9 r) and on its surface, for radius r > 0
-/// (m). A site lies at `origin`, by default the box's center (rounded as above).
+/// (m). A site lies at `origin`, by default the box's center (rounded as above). All coordinates
+/// are multiples of a power of two, of `step` (m) where that is larger.
 Lattice lattice_in(const Box& box, Packing packing, double radius,
-                   const std::optional<Vec3>& origin = std::nullopt);
+                   const std::optional<Vec3>& origin = std::nullopt, double step = 0);
 
 /// Estimated numbers of sites and rows.
 struct LatticeSize {
@@ -90,7 +91,12 @@ class LatticeFrame {
   Vec3 to_lattice(const Vec3& point) const;
   Vec3 from_lattice(const Vec3& site) const;
 
+  /// Far from the origin, the step (m) of coordinates that are moved back exactly, so that
+  /// neighbors there are as far apart as here; else 0.
+  double step() const { return step_; }
+
  private:
+  double step_ = 0;
   Vec3 shift_ = Vec3::Zero();
   Mat3 turn_;
   bool turned_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <sinew/core/local_origin.h>
 #include <sinew/core/parallel.h>
 
 namespace sinew {
@@ -21,8 +22,10 @@ constexpr double largest = 1.25, off_the_middle = 0.125, traveled = 0.36;
 }  // namespace
 
 template <>
-Units units_for<double>(const Box&, const PairForce&, double) {
-  return {};
+Units units_for<double>(const Box& box, const PairForce&, double) {
+  Units units;
+  units.origin = local_origin(box);
+  return units;
 }
 
 template <>
@@ -86,14 +89,15 @@ kernel::State<Real> BlockState<Real>::arrays() {
 }
 
 template <>
-Vec3 BlockState<double>::position(std::size_t k, const Units&) const {
+Vec3 BlockState<double>::position(std::size_t k, const Units& units) const {
   const std::size_t slot = k + block;
-  return {x_[0][slot], x_[1][slot], x_[2][slot]};
+  const Vec3 local(x_[0][slot], x_[1][slot], x_[2][slot]);
+  return units.origin.isZero(0) ? local : Vec3(units.origin + local);  // -0 stays -0
 }
 
 template <>
-void BlockState<double>::set_position(std::size_t k, int axis, double p, const Units&) {
-  x_[axis][k + block] = p;
+void BlockState<double>::set_position(std::size_t k, int axis, double p, const Units& units) {
+  x_[axis][k + block] = p - units.origin[axis];
 }
 
 template <>

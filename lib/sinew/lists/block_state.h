@@ -19,8 +19,9 @@ namespace sinew {
 
 // The kernel's units, positions included.
 
-/// The kernel's units. Double precision uses meters and seconds. Single precision counts time in
-/// steps and stores positions as fixed-point numbers: multiples of a small length from an origin.
+/// The kernel's units. Double precision uses meters, from a local origin, and seconds. Single
+/// precision counts time in steps and stores positions as fixed-point numbers: multiples of a small
+/// length from an origin.
 struct Units {
   double length = 1;  ///< m
   double time = 1;    ///< s

@@ -154,8 +154,8 @@ void put(const Vec3& from, double scale, Real* to) {
 }
 
 /// A point as integers and a remainder, both in lengths of the kernel.
-void put_center(const Vec3& p, const Units&, kernel::FrameNow<double>& frame) {
-  put(p, 1, frame.center);
+void put_center(const Vec3& p, const Units& units, kernel::FrameNow<double>& frame) {
+  put(Vec3(p - units.origin), 1, frame.center);
   put(Vec3(Vec3::Zero()), 1, frame.rest_of_center);
 }
 

@@ -7,6 +7,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/core/simulation_state.h>
+#include <sinew/core/triangles.h>
 #include <sinew/lists/particle_order.h>
 
 namespace sinew {
@@ -36,7 +37,9 @@ ParticleLayout<Real>::ParticleLayout(const Body& body, const Particles& particle
       units_box_(box_around(particles)),
       id_((now.blocks() + 2) * block, 0),
       caller_(order_at_rest(body, particles.id)) {
-  units_ = units_for<Real>(units_box_, pair_, step_);
+  // In double precision the same for all states of a body, wherever it has gone.
+  const bool moves = std::is_same_v<Real, float>;
+  units_ = units_for<Real>(moves ? units_box_ : bounds(body.rest), pair_, step_);
   parallel_split(size(), particles_per_conversion, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = caller_[k];

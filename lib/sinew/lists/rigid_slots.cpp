@@ -8,8 +8,8 @@ namespace sinew {
 namespace {
 
 /// Nearest place that the kernel's coordinates can tell; returns it in m.
-Vec3 put_center(const Vec3& p, const Units&, double* center) {
-  std::copy(p.data(), p.data() + 3, center);
+Vec3 put_center(const Vec3& p, const Units& units, double* center) {
+  for (int axis = 0; axis < 3; ++axis) center[axis] = p[axis] - units.origin[axis];
   return p;
 }
 

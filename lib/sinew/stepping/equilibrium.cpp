@@ -332,7 +332,7 @@ Relaxation::Iteration relaxation_of(const Body& body, Stepper& stepper, double s
                     "search neighbors by lists, and leave all particles free");
   SimulationState state;
   stepper.save(state);
-  const Box box = bounds(body.rest);
+  const Box box = bounds(body.rest).translated(-state.fixed_point_units.origin);
   const double coordinate = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   const double fine =
       std::max(coordinate, box.diagonal().norm()) * std::numeric_limits<double>::epsilon();

@@ -8,7 +8,9 @@
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/decompositions.h>
 #include <sinew/core/error.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/parallel.h>
+#include <sinew/core/triangles.h>
 
 namespace sinew {
 namespace {
@@ -31,7 +33,7 @@ class Finder {
  public:
   Finder(const Points& rest, double radius) : rest_(rest) {
     if (rest.empty()) throw bad_input("the body has no particles", "make its radius smaller");
-    const double all = 2 * bounds_of(rest).diagonal().norm() + radius;
+    const double all = 2 * bounds(rest).diagonal().norm() + radius;
     for (double reach = first_reach * radius;; reach *= 4) {
       reach_.push_back(reach);
       grids_.emplace_back(rest, reach);
@@ -52,12 +54,6 @@ class Finder {
   }
 
  private:
-  static Box bounds_of(const Points& points) {
-    Box box;
-    for (const Vec3& point : points) box.extend(point);
-    return box;
-  }
-
   void add(const Vec3& place, std::uint32_t j, double most, std::vector<Near>& found) const {
     const double squared = (rest_[j] - place).squaredNorm();
     if (squared <= most) found.push_back({squared, j});
@@ -118,6 +114,11 @@ std::vector<double> weights_at(const Vec3& place, const std::vector<Near>& near,
   return weights;
 }
 
+Points less(Points points, const Vec3& shift) {
+  for (Vec3& point : points) point -= shift;
+  return points;
+}
+
 }  // namespace
 
 Points FollowingPoints::at(const Points& now) const {
@@ -125,8 +126,9 @@ Points FollowingPoints::at(const Points& now) const {
   parallel_for(size(), points_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       Vec3 place = Vec3::Zero();
-      for (std::uint32_t e = first[k]; e < first[k + 1]; ++e) place += weight[e] * now[particle[e]];
-      places[k] = place;
+      for (std::uint32_t e = first[k]; e < first[k + 1]; ++e)
+        place += weight[e] * (now[particle[e]] - origin);
+      places[k] = origin + place;
     }
   });
   return places;
@@ -134,6 +136,12 @@ Points FollowingPoints::at(const Points& now) const {
 
 FollowingPoints following(const Points& places, const Points& rest, double radius,
                           std::size_t count) {
+  const Vec3 origin = local_origin(bounds(rest));
+  if (!origin.isZero(0)) {
+    FollowingPoints near = following(less(places, origin), less(rest, origin), radius, count);
+    near.origin = origin;
+    return near;
+  }
   const Finder finder(rest, radius);
   FollowingPoints points;
   const std::size_t each = std::min(count, rest.size());

@@ -36,7 +36,8 @@ std::vector<std::uint32_t> sorted(std::size_t count, const Key& key) {
 
 PressedFaces::PressedFaces(const std::vector<std::array<int, 3>>& faces,
                            const FollowingPoints& corners, std::size_t particles)
-    : at_(particles, Four::Zero()),
+    : origin_(corners.origin),
+      at_(particles, Four::Zero()),
       corner_(corners.size(), Four::Zero()),
       motion_(corners.size(), Four::Zero()),
       area_(faces.size(), Four::Zero()),

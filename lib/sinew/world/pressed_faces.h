@@ -48,7 +48,7 @@ class PressedFaces {
     if (empty()) return false;
     const bool due = !found_ || (stepping && left_ == 0);
     if (due) {
-      on_all(at_.size(), [&](std::size_t k) { at_[k].template head<3>() = position(k); });
+      on_all(at_.size(), [&](std::size_t k) { at_[k].template head<3>() = position(k) - origin_; });
       move_corners(stepping);
     }
     if (stepping) --left_;
@@ -94,6 +94,7 @@ class PressedFaces {
 
   Weights of_corners_, of_particles_, of_faces_;  ///< corners from particles, and back; from faces
   std::vector<std::array<std::uint32_t, 3>> face_;
+  Vec3 origin_ = Vec3::Zero();         ///< of places, m
   std::vector<Four> at_;               ///< particles, m
   std::vector<Four> corner_, motion_;  ///< when forces were found last, m; by step since before, m
   std::vector<Four> area_, pushed_, forces_;
