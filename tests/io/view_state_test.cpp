@@ -18,9 +18,12 @@ namespace sinew::view_state_test {
 /// A run of so many frames, whose second bone turns by 90 degrees.
 class ViewState : public Scratch {
  protected:
-  void write_run(int count = 5) {
+  void write_run(int count = 5, const Vec3& at = Vec3::Zero()) {
     const SyntheticRun run;
-    write_body(folder / "body.vtu", run.body());
+    BodyFile body = run.body();
+    for (std::size_t i = 0; i < run.count(); ++i)
+      body.particles.set_position(i, body.particles.position(i) + at);
+    write_body(folder / "body.vtu", body);
     const auto format = [](const char* series) {
       return VtuFormat{Encoding::zlib, false, series, SyntheticRun::radius};
     };
@@ -28,7 +31,9 @@ class ViewState : public Scratch {
     Series bones(folder, format("bones")), frames(folder, format("frames"));
     for (int k = 0; k < count; ++k) {
       const Moment moment{SyntheticRun::half_turn * k / std::max(1, count - 1), k};
-      particles.add(run.particles(moment));
+      Dataset places = run.particles(moment);
+      for (Vec3& point : places.points) point += at;
+      particles.add(places);
       surface.add(run.surface(moment));
       bones.add(run.bones(moment));
       frames.add(run.frames(moment));
@@ -75,6 +80,17 @@ class ViewState : public Scratch {
     return found;
   }
 };
+
+TEST_F(ViewState, ShowsABodyFarAwayFromAPointNearIt) {
+  write_run(2, {-1048576, 0, 0});
+  const std::string text = state();
+  const std::vector<std::string> function = values(text, "Calculator", "Function");
+  ASSERT_EQ(function.size(), 1u);
+  EXPECT_EQ(function[0], "coords-((-1048576)*iHat+(0)*jHat+(0)*kHat)");
+  for (const std::string& place : values(text, "RenderView", "CameraFocalPoint"))
+    EXPECT_LT(std::abs(std::stod(place)), 1);
+  EXPECT_EQ(values(text, "RenderView", "CameraFocalPoint").size(), 3u);
+}
 
 TEST_F(ViewState, NamesEverySeriesByItsWholePath) {
   write_run();

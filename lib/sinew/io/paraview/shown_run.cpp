@@ -6,7 +6,9 @@
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/text.h>
+#include <sinew/core/triangles.h>
 #include <sinew/io/series.h>
 #include <sinew/io/vtu.h>
 
@@ -34,6 +36,7 @@ void add_corners(ShownRun& run, const Points& points) {
   if (points.empty()) return;
   Vec3 low = points[0], high = points[0];
   for (const Vec3& point : points) low = low.cwiseMin(point), high = high.cwiseMax(point);
+  low -= run.origin, high -= run.origin;
   for (int corner = 0; corner < 8; ++corner)
     run.corners.emplace_back(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
                              corner & 4 ? high.z() : low.z());
@@ -201,6 +204,7 @@ ShownRun shown_run(const fs::path& folder, const ViewOptions& options) {
   if (rest.points.empty())
     throw bad_input(Place{(run.folder / "body.vtu").string()}, "has no particles",
                     "run the scene again");
+  run.origin = local_origin(bounds(rest.points));
   add_corners(run, rest.points);
   run.rest = {run.corners.at(0), run.corners[7]};
   run.radius = numbers(rest.point_columns, "radius").at(0);

@@ -29,8 +29,9 @@ struct ShownRun {
   std::filesystem::path folder;     ///< absolute
   std::vector<std::string> series;  ///< those it has, of those that are shown
   std::vector<double> times;        ///< of its frames, s
-  std::array<Vec3, 2> rest;         ///< corners of the box around the body at rest, m
-  Points corners;                   ///< of boxes around all that is shown, over time, m
+  Vec3 origin = Vec3::Zero();       ///< near the body, relative to which it is shown, m
+  std::array<Vec3, 2> rest;         ///< corners of the box around the body at rest, m, from there
+  Points corners;                   ///< of boxes around all that is shown, over time, likewise
   std::size_t particles = 0;
   double radius = 0;        ///< of the particles, m
   bool can_be_cut = false;  ///< the frames tell where particles were at rest

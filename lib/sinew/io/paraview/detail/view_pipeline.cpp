@@ -51,8 +51,19 @@ class Pipeline {
 
   void open_series() {
     for (const std::string& name : run_.series)
-      made_.series[name] = &source("sources", "PVDReader", name)
-                                .text("FileName", {(run_.folder / (name + ".pvd")).string()});
+      made_.series[name] =
+          &near_body(name, source("sources", "PVDReader", name)
+                               .text("FileName", {(run_.folder / (name + ".pvd")).string()}));
+  }
+
+  /// Graphics have single precision: a body far away is shown relative to a point near it.
+  StateProxy& near_body(const std::string& name, StateProxy& series) {
+    const Vec3& at = run_.origin;
+    if (at.isZero(0)) return series;
+    return filter("Calculator", name + ", from the run's origin", series)
+        .number("CoordinateResults", 1)
+        .text("Function", {"coords-((" + number_text(at.x()) + ")*iHat+(" + number_text(at.y()) +
+                           ")*jHat+(" + number_text(at.z()) + ")*kHat)"});
   }
 
   int axis() const { return options_.cut.at(0) - 'x'; }

@@ -192,7 +192,8 @@ def main():
     folder = run_folder()
     global follower
     follower = Follower(folder, options)
-    sources = {series: live_source(series) for series in follower.series}
+    readers = {series: live_source(series) for series in follower.series}
+    sources = near_body(readers, folder)
     layout, left = show_all(sources, options, scene_of(folder, follower, sources, options))
     show_time(time_note(sources["particles"]), left, options)
     SetActiveSource(sources["particles"])
@@ -200,7 +201,7 @@ def main():
         RenderAllViews()
         return
     layout.SetSize(*options.size)
-    wrong = follow_in_batch(follower, sources, options)
+    wrong = follow_in_batch(follower, readers, options)
     if options.picture:
         save_picture(options, layout)
     if wrong:

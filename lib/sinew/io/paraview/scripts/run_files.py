@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The files of a run: their folder, and the data needed before anything is shown."""
+import json
 import mmap
 import os
 import re
@@ -75,12 +76,36 @@ def range_in(array):
     return float(array.get("RangeMin", 0)), float(array.get("RangeMax", 1))
 
 
+def origin_of(folder):
+    """The point near a body far away, relative to which it is shown; else zero."""
+    try:
+        with open(os.path.join(folder, "run.json"), encoding="utf-8") as record:
+            x, y, z = map(float, json.load(record)["origin"])
+        return x, y, z
+    except (OSError, ValueError, KeyError, TypeError):
+        return 0.0, 0.0, 0.0
+
+
+def near_body(sources, folder):
+    """Sources whose points are relative to the origin of the run: graphics have single precision."""
+    x, y, z = origin_of(folder)
+    if not (x or y or z):
+        return sources
+    near = {}
+    for name, source in sources.items():
+        near[name] = Calculator(registrationName=f"{name}, from the run's origin", Input=source)
+        near[name].CoordinateResults = 1
+        near[name].Function = f"coords-(({x!r})*iHat+({y!r})*jHat+({z!r})*kHat)"
+    return near
+
+
 def body_at_rest(folder):
-    """The bounds and the number of its particles."""
+    """The bounds, relative to the origin of the run, and the number of its particles."""
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(os.path.join(folder, "body.vtu"))
     reader.Update()
-    return reader.GetOutput().GetBounds(), reader.GetOutput().GetNumberOfPoints()
+    bounds, origin = reader.GetOutput().GetBounds(), origin_of(folder)
+    return [side - origin[k // 2] for k, side in enumerate(bounds)], reader.GetOutput().GetNumberOfPoints()
 
 
 class Scene:

@@ -120,7 +120,7 @@ def main():
     frames = frame_files(folder, "particles")
     if not frames:
         stop("the run has no frames yet; live.py follows it")
-    sources = open_series(folder)
+    sources = near_body(open_series(folder), folder)
     scene, moment = scene_of(folder, frames, sources, options)
     layout, left = show_all(sources, options, scene)
     show_time(time_note(sources["particles"]), left, options)
