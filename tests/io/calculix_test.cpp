@@ -202,6 +202,12 @@ TEST_F(Calculix, DecksHoldEveryStepAndNumbersThatCcxCanRead) {
   EXPECT_NE(text.find("two?lines\n"), std::string::npos);
   Deck far = deck();
   far.mesh.nodes[3] = {403000.123456789, -8388608.1234567895, 1.0 / 3};
+  far.origin = {402992, 0, 0};
+  write_deck(folder / "from.inp", far);
+  const std::string from = text_of(folder / "from.inp");
+  EXPECT_NE(from.find("** meters from 402992 0 0\n*NODE"), std::string::npos);
+  EXPECT_NE(from.find("\n4,8.12345678"), std::string::npos);
+  far.origin.setZero();
   write_deck(folder / "far.inp", far);
   EXPECT_NE(text_of(folder / "far.inp")
                 .find("\n4,403000.123456789,-8388608.12345679,3.33333333333e-01\n"),

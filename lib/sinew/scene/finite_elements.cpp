@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include <sinew/core/local_origin.h>
 #include <sinew/core/text.h>
 #include <sinew/fill/fill_limits.h>
 #include <sinew/repair/volume_meshing.h>
@@ -378,6 +379,7 @@ Deck deck_of(const Settings& settings, const Surface& surface, const ElementOpti
   deck.title = "sinew: " + std::filesystem::path(settings.body.mesh).filename().string();
   deck.large_displacements = !options.linear;
   deck.mesh = mesh_of(settings, skin, size_of(settings, skin, options));
+  deck.origin = local_origin(bounds(skin.points));
   const ElementParts parts(settings, deck.mesh);
   deck.materials = materials_of(settings, deck.mesh, parts);
   std::vector<NodeSupport> supports;

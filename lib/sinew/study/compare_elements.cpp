@@ -7,6 +7,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/io/calculix/frd.h>
@@ -27,6 +28,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double max_outside = 0.5;  // elements: the corners of curved sides stay far below
+
+/// The result with its nodes where the run is, relative to whose origin decks are written.
+FrdResult at_run(FrdResult result, const RunFiles& run) {
+  const Vec3 origin = local_origin(bounds(run.surface.points));
+  if (!local_origin(bounds(result.mesh.nodes)).isZero(0)) return result;  // of another program
+  for (Vec3& node : result.mesh.nodes) node += origin;
+  return result;
+}
 
 /// Places of the run's body in the elements.
 std::vector<ElementPlace> places_of(const FrdResult& result, const Points& points, const char* what,
@@ -131,7 +140,7 @@ class RunInElements {
   RunInElements(const fs::path& folder, const fs::path& file)
       : run_(open_run({folder})),
         rest_(rest_of(run_)),
-        result_(read_frd(file)),
+        result_(at_run(read_frd(file), run_)),
         pairs_(pairs_of(run_, result_, file)),
         particles_(places_of(result_, rest_.shape.points, "particle", file)),
         surface_(places_of(result_, run_.surface.points, "point of the surface", file)),

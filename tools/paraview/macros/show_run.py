@@ -3,6 +3,8 @@
 
 A macro of ParaView: Macros > Import New Macro. Select what the reader Sinew Run has opened, and start it.
 """
+import json
+
 from paraview.simple import *
 
 SKIN, BONES, OBSTACLES = [0.55, 0.71, 0.86], [0.98, 0.93, 0.80], [0.62, 0.60, 0.58]
@@ -18,6 +20,12 @@ diffuseColor = diffuseColor * light;
 
 def part(run, name):
     found = ExtractBlock(registrationName=name, Input=run, Selectors=[f"/Root/{name}"])
+    with open(run.FileName, encoding="utf-8") as record:
+        origin = json.load(record).get("origin")
+    if origin:  # a body far away: spheres have single precision
+        found = Calculator(registrationName=f"{name}, from the run's origin", Input=found)
+        found.CoordinateResults = 1
+        found.Function = "coords-(({!r})*iHat+({!r})*jHat+({!r})*kHat)".format(*origin)
     found.UpdatePipeline()
     return found
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <sinew/core/file.h>
+#include <sinew/core/text.h>
 #include <sinew/io/particle_formats/detail/writers.h>
 
 namespace sinew {
@@ -26,10 +27,16 @@ std::string_view type_of(ElementKind kind) {
   return "";
 }
 
-void write_nodes(NewFile& file, const VolumeMesh& mesh) {
+void write_nodes(NewFile& file, const Deck& deck) {
+  const Vec3& origin = deck.origin;
+  if (!origin.isZero(0)) {
+    std::string told = "** meters from";
+    for (const double coordinate : origin) told += ' ' + number_text(coordinate);
+    write_text(file, told + '\n');
+  }
   write_text(file, "*NODE, NSET=ALL\n");
-  write_rows(file, mesh.nodes.size(), [&](std::string& text, std::size_t i) {
-    const Vec3& p = mesh.nodes[i];
+  write_rows(file, deck.mesh.nodes.size(), [&](std::string& text, std::size_t i) {
+    const Vec3 p = deck.mesh.nodes[i] - origin;
     put_row(text, ',', i + 1, short_place(p.x()), short_place(p.y()), short_place(p.z()));
   });
 }
@@ -151,7 +158,7 @@ void write_step(NewFile& file, const Deck& deck, std::size_t k) {
 void write_deck(const std::filesystem::path& path, const Deck& deck) {
   NewFile file(path);
   write_text(file, "*HEADING\n" + comment_line(deck.title).substr(3));
-  write_nodes(file, deck.mesh);
+  write_nodes(file, deck);
   write_elements(file, deck.mesh);
   write_materials(file, deck.materials);
   write_sets(file, deck.sets);

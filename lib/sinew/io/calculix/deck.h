@@ -54,8 +54,9 @@ struct DeckStep {
 };
 
 struct Deck {
-  std::string title;  ///< one line
-  VolumeMesh mesh;    ///< of one kind of elements
+  std::string title;           ///< one line
+  VolumeMesh mesh;             ///< of one kind of elements
+  Vec3 origin = Vec3::Zero();  ///< to which written nodes are relative, m: results have six digits
   std::vector<DeckMaterial> materials;
   std::vector<DeckSet> sets;
   std::vector<DeckStep> steps;      ///< of ascending times
