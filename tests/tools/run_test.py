@@ -138,6 +138,32 @@ class Commands(SmallRun):
         for name in ("skin_lbs.pvd", "skin_dqs.pvd", "surface.pc2", "surface.obj", "surface.glb"):
             self.assertFalse((self.out / name).exists(), name)
 
+    def test_far_from_the_origin_a_run_is_as_at_it(self):
+        """At 1e6 sizes: the same metrics, and surfaces that count from the origin that run.json tells."""
+        def points(origin):
+            data = (self.out / "surface.pc2").read_bytes()
+            return numpy.frombuffer(data, "<f4", offset=32).reshape(-1, 3) + numpy.array(origin) - far
+
+        exact = ("--force", "--set=output.export=true", "--set=output.double_precision=true", "--set=material.model=bonded")
+        rows, surfaces = [], []
+        for far in (numpy.zeros(3), numpy.array([2.0 ** 20, 0, 0])):
+            moved = [f"--set={key}.offset={far.tolist()}" for key in ("body", "skeleton")]
+            self.simulate(*exact, *moved)
+            sinew("measure", self.out, check=0)
+            rows.append(list(csv.DictReader((self.out / "metrics.csv").read_text().splitlines()))[-1])
+            beside = self.out / "surface.pc2.origin.json"
+            self.assertEqual(beside.exists(), far.any())
+            surfaces.append(points(json.loads(beside.read_text())["origin"] if far.any() else far))
+        self.assertEqual(self.record()["origin"], far.tolist())
+        self.assertIn("surface.pc2.origin.json", (self.out / "checksums.sfv").read_text())
+        moving = (self.out / "surface.glb").read_bytes()
+        document = json.loads(moving[20:20 + struct.unpack("<I", moving[12:16])[0]])
+        self.assertEqual(document["nodes"][0]["translation"], [0, 0, far[0]])
+        numpy.testing.assert_allclose(*surfaces, atol=1e-6)
+        for name in ("limb_turn_max", "volume_error", "strain_95", "angular_momentum_y", "tip_angle", "pair_energy"):
+            near, other = (float(row[name]) for row in rows)
+            self.assertAlmostEqual(near, other, delta=1e-5 * abs(near), msg=name)
+
     def test_exported_surface_keeps_the_look_of_its_mesh(self):
         (self.folder / "my meshes").mkdir()
         mesh = self.folder / "my meshes/box.obj"
