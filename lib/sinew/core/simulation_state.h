@@ -70,10 +70,10 @@ struct MovingColumns {
   std::array<std::vector<Coord>, 3> x;
   std::array<std::vector<Real>, 3> v;
 };
-using MovingInDouble = MovingColumns<double, double>;       ///< m, m/s
+using MovingInDouble = MovingColumns<double, double>;       ///< m from the origin, m/s
 using MovingInSingle = MovingColumns<std::int32_t, float>;  ///< lengths and lengths per step
 
-/// The fixed-point units of single precision, and the range in which they are valid.
+/// The fixed-point units of single precision, and their range; of double precision the origin.
 struct FixedPointUnits {
   double length = 1;           ///< m
   Vec3 origin = Vec3::Zero();  ///< m
@@ -143,7 +143,7 @@ struct SimulationState {
   bool kicked = false;         ///< velocities are half a step behind positions (velocity Verlet)
   std::variant<MovingInDouble, MovingInSingle> moving;
   std::vector<std::uint32_t> order;   ///< each particle's place in the caller's order
-  FixedPointUnits fixed_point_units;  ///< of single precision
+  FixedPointUnits fixed_point_units;  ///< of double precision the origin
   double mean_when_sorted = 0;        ///< length of lists above which sorting is tried again
   std::vector<double> rest_length;    ///< of the reference's bonds, m; 0 once broken
   // Lists, where bonds change:
