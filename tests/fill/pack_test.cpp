@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <set>
 
 #include <sinew/core/cell_grid.h>
 #include <sinew/core/error.h>
@@ -208,6 +210,32 @@ TEST(Pack, KeepsItsSitesWhenTheBodyIsMovedByExactAmounts) {
   ASSERT_EQ(there.particles.size(), here.particles.size());
   for (std::size_t i = 0; i < here.particles.size(); ++i)
     ASSERT_LT((there.particles.position(i) - by - here.particles.position(i)).norm(), 1e-13);
+}
+
+TEST(Pack, SitesFarAwayAreEvenlySpaced) {
+  const auto box = shapes::box(Vec3::Zero(), Vec3::Ones());
+  const Vec3 by(std::ldexp(1.0, 23), 0, 0);
+  const Filling here = pack(clean(box), with_radius(0.06));
+  const Filling there = pack(clean(shapes::moved(box, by)), with_radius(0.06));
+  ASSERT_EQ(there.particles.size(), here.particles.size());
+  for (std::size_t i = 0; i < here.particles.size(); ++i)
+    ASSERT_LT((there.particles.position(i) - by - here.particles.position(i)).norm(), 1e-7);
+  std::set<double> across(there.particles.x.begin(), there.particles.x.end());
+  const double gap = *std::next(across.begin()) - *across.begin();
+  for (auto next = std::next(across.begin()); next != across.end(); ++next)
+    EXPECT_EQ(*next - *std::prev(next), gap);
+}
+
+TEST(Pack, WarnsWhereNumbersTellPlacesTooCoarsely) {
+  const auto told = [](double far) {
+    const auto box = shapes::moved(shapes::box(Vec3::Zero(), Vec3::Ones()), Vec3(0, far, 0));
+    const std::vector<std::string> all = pack(clean(box), with_radius(0.06)).report.warnings;
+    return std::count_if(all.begin(), all.end(), [](const std::string& warning) {
+      return warning.find("move it nearer (body.offset)") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(std::ldexp(1.0, 24)), 0);
+  EXPECT_EQ(told(-std::ldexp(1.0, 40)), 1);
 }
 
 TEST(Pack, FindsTheRadiusForACount) {

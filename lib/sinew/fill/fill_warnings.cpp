@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <sinew/core/particles.h>
@@ -16,6 +17,7 @@ using Warnings = std::vector<std::string>;
 
 constexpr double much_lost = 0.01;           // of the volume
 constexpr double much_missed = 0.05;         // of the requested count
+constexpr double coarse = 1e-5;              // radii: strains of bonds are as coarse
 constexpr double huge = 100, minute = 1e-3;  // m: outside of these the unit may be wrong
 
 std::string counted(std::size_t count, const std::string& what, const std::string& many) {
@@ -23,6 +25,18 @@ std::string counted(std::size_t count, const std::string& what, const std::strin
 }
 
 std::string percent(double fraction) { return three_digits(100 * fraction) + " %"; }
+
+/// The body is run near the origin, but its particles are told where it is.
+void warn_of_coarse_places(const FillReport& report, const Surface& surface, Warnings& warnings) {
+  const Box box = bounds(surface.triangles.points);
+  const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  const double apart = farthest * std::numeric_limits<double>::epsilon();
+  if (!(apart > coarse * report.radius)) return;
+  warnings.push_back("the body is " + three_digits(farthest) +
+                     " m from the origin, where numbers tell places to " + three_digits(apart) +
+                     " m, " + three_digits(apart / report.radius) +
+                     " radii of its particles; move it nearer (body.offset)");
+}
 
 void warn_of_holes(const FillReport& report, Warnings& warnings) {
   if (report.closed || report.layer) return;
@@ -141,6 +155,7 @@ Warnings warnings_of(const FillReport& report, const Surface& surface) {
   Warnings warnings;
   if (!surface.warning.empty()) warnings.push_back(surface.warning);
   if (const auto odd = size_warning(report.box_size.maxCoeff())) warnings.push_back(*odd);
+  warn_of_coarse_places(report, surface, warnings);
   warn_of_missed_count(report, warnings);
   warn_of_holes(report, warnings);
   warn_of_lost_volume(report, surface, warnings);
