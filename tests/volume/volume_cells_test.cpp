@@ -226,15 +226,15 @@ TEST(VolumeCells, JoinSolidsThatShareFaces) {
 
 /// Plates that no layer of the lattice is parallel to. Sites in the middle of thin ones keep cells.
 TEST(VolumeCells, OfThinPlatesKeepWhatTheParticlesHaveOfThem) {
-  struct Plate {
+  struct Wall {
     double radii, volume;  ///< thickness, and the least share of the volume
   };
   const Mat3 turn = Quat(0.9, 0.2, 0.3, 0.1).normalized().toRotationMatrix();
   for (const auto& [radii, least] :
-       {Plate{4, 0.995}, {2.5, 0.99}, {2, 0.98}, {1.5, 0.93}, {1, 0.55}}) {
-    PolygonSoup plate = shapes::box(Vec3::Zero(), Vec3(1, 0.8, 0.03 * radii));
-    for (Vec3& point : plate.points) point = turn * point;
-    const Filled body = filled(plate, of_radius(0.03));
+       {Wall{4, 0.995}, {2.5, 0.99}, {2, 0.98}, {1.5, 0.93}, {1, 0.55}}) {
+    PolygonSoup wall = shapes::box(Vec3::Zero(), Vec3(1, 0.8, 0.03 * radii));
+    for (Vec3& point : wall.points) point = turn * point;
+    const Filled body = filled(wall, of_radius(0.03));
     const CellQuality quality = quality_of(body.cells);
     EXPECT_GT(quality.volume / volume(body.surface.triangles), least) << radii;
     EXPECT_LT(quality.volume / volume(body.surface.triangles), 1.01) << radii;

@@ -30,7 +30,7 @@ constexpr double usual_size = 0.5, usual_modulus = 10e3;
 constexpr double layer_fraction = 1.0 / 40;  // thickness of a layer along a mesh without inside
 constexpr double open_fraction = 0.12;   // of a component's area, its holes: it encloses nothing
 constexpr double smallest_shell = 0.05;  // of the area of the mesh
-constexpr double most_added = 0.2;       // of the skin, by closing holes
+constexpr double max_added = 0.2;        // of the skin, by closing holes
 
 double extent(const Surface& surface) {
   return bounds(surface.triangles.points).sizes().maxCoeff();
@@ -102,7 +102,7 @@ std::optional<Surface> with_closed_holes(const Surface& open, BodyOptions body) 
   try {
     Surface closed = read_body_mesh(body);
     const double skin = area(closed.triangles);
-    if (!closed.closed() || skin - area(open.triangles) > most_added * skin ||
+    if (!closed.closed() || skin - area(open.triangles) > max_added * skin ||
         !(volume_inside(closed).volume > 0))
       return std::nullopt;
     return closed;

@@ -129,10 +129,10 @@ class Stuffing {
     const Vec3 nearest = std::min_element(edges.begin(), edges.end(), shorter)->place - point;
     std::optional<Vec3> opposite;
     for (const CutEdge& edge : edges) {
-      const Vec3 way = edge.place - point;
-      if (way.dot(nearest) < opposed * way.norm() * nearest.norm() &&
-          (!opposite || way.norm() < opposite->norm()))
-        opposite = way;
+      const Vec3 displacement = edge.place - point;
+      if (displacement.dot(nearest) < opposed * displacement.norm() * nearest.norm() &&
+          (!opposite || displacement.norm() < opposite->norm()))
+        opposite = displacement;
     }
     if (!opposite) return;
     const double thickness = (nearest.norm() + opposite->norm()) / touching_;
