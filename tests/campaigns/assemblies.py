@@ -33,7 +33,9 @@ def solids_of_cells(chance, at, cells, filled):
         points = np.array([at(*(np.array(cell) + corner)) for corner in CORNERS])
         for faces in PRISMS if prisms else (BOX,):
             polygons = [without_points(list(face), points) for face in faces]
-            yield points, [polygon for polygon in polygons if polygon]
+            polygons = [polygon for polygon in polygons if polygon]
+            if len(polygons) > 3:  # else the cell is flat, at the middle or an axis
+                yield points, polygons
 
 
 def grid(chance, cells, filled):
