@@ -53,7 +53,7 @@ struct NamedCount {
   std::string_view name;
   std::size_t CleaningCounts::*count;
   Of of;
-  std::string_view unit = "";
+  std::string_view unit = {};
 };
 
 /// All counts, in the order of reports.
