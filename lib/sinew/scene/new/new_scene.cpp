@@ -122,15 +122,15 @@ Surface read_guessing(NewChoices& choices, const std::optional<Axis>& given_up) 
   body.up = up.up, choices.axes = up.why;
   if (up.up == Axis::y) body.forward = Axis::z;
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
-  if (auto closed = with_closed_holes(surface, body)) {
+  const std::vector<bool> open = open_shells(surface);
+  const auto shells = std::count(open.begin(), open.end(), true);
+  if (auto closed = shells == 0 ? with_closed_holes(surface, body) : std::nullopt) {
     body.close_holes = true;
     const std::size_t holes = closed->cleaning.holes_closed;
     choices.holes = std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
                     " of the mesh, closed (body.close_holes)";
     return std::move(*closed);
   }
-  const std::vector<bool> open = open_shells(surface);
-  const auto shells = std::count(open.begin(), open.end(), true);
   if (shells > 0 && shells < surface.components) surface = layered_shells(surface, open, choices);
   const bool no_inside =
       ambiguous_fraction(surface) > max_ambiguous || !(volume_inside(surface).volume > 0);
