@@ -51,8 +51,7 @@ void declare(OptionList& list, Options& options) {
            "Format, by default that of the file's name: " + help_of_formats() +
                ", volume (tetrahedra between the particles, a series of VTU files as of "
                "output.volume, by default in the run's folder), obj, ply, stl (the deformed "
-               "surface, "
-               "in m), calculix (of a scene: finite "
+               "surface, in m), calculix (of a scene: finite "
                "elements, an input deck of CalculiX, .inp)")
       .type_name("FORMAT");
   list.add("--times", options.times, "Times of the frames, s; all frames if not given")
@@ -206,10 +205,12 @@ Exit export_surface(const Options& options, const std::string& extension, const 
   const bool folder = frames.size() > 1;
   const auto target = target_of(options, extension.substr(1), extension, folder);
   refuse_target(target, options, folder);
-  const auto files = export_surfaces(run, {options.series, extension}, frames, target);
+  const ExportedSurfaces done = export_surfaces(run, {options.series, extension}, frames, target);
   Results results;
   results.add("frames", frames.size());
-  results.add("files", files.size());
+  results.add("files", done.files.size());
+  if (const Vec3& at = done.origin; !at.isZero(0))
+    results.add("origin", {at.x(), at.y(), at.z()}, "m, from which the file counts");
   results.add(folder ? "folder" : "file", target.string());
   results.print(common);
   return Exit::done;

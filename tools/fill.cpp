@@ -101,7 +101,7 @@ Settings settings_for(const Options& options, const Common& common) {
 void print_cells(const VolumeCells& cells, FillReport report, const Surface& surface,
                  double seconds, const Options& options, const Common& common) {
   const CellQuality quality = quality_of(cells);
-  if (const auto lost = cell_warning(quality.volume, report.volume, surface))
+  if (const auto lost = cell_warning(quality.volume, report.volume, report.radius, surface))
     report.warnings.push_back(*lost);
   Results results;
   results.add("particles", report.particles);

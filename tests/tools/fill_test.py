@@ -124,6 +124,37 @@ class Meshes(unittest.TestCase):
             self.assertEqual(self.fill(mesh, "--radius", 0.05)["particles"], expected)
         self.assertEqual(self.fill(together(ball, ball), "--radius", 0.05)["faces_doubled"], 2048)
 
+    def test_solids_that_share_faces_fill_as_one_body_and_are_told_apart(self):
+        import meshio
+        cells = [moved(cube(), (i % 2, i // 2 % 2, i // 4)) for i in range(8)]
+        all_of_them = cells[0]
+        for cell in cells[1:]:
+            all_of_them = together(all_of_them, cell)
+        origin = ("--lattice-origin", "0.0123,0.0077,0.0051", "--radius", 0.06)
+        found = self.fill(all_of_them, *origin)
+        component = meshio.read(self.folder / "body.vtu").point_data["component"]
+        self.assertEqual(sorted(set(component)), list(range(8)))
+        block = [tuple(2 * x for x in p) for p in cube()[0]], cube()[1]
+        self.assertEqual(found["particles"], self.fill(block, *origin)["particles"])
+        self.assertEqual(found["warnings"], self.fill(block, *origin)["warnings"])
+        info = self.run_sinew("info", self.write(all_of_them))
+        self.assertEqual((info["faces_shared"], info["closed"], info["volume"]), (24, True, 8))
+
+    def test_the_volume_of_parts_that_overlap_is_told_once(self):
+        info = self.run_sinew("info", self.write(together(cube(), moved(cube(), (0.5, 0.25, 0)))))
+        self.assertAlmostEqual(info["volume"], 2 - 0.5 * 0.75, delta=0.02)
+
+    def test_what_tetrahedra_lack_of_thin_walls_is_told(self):
+        plate = [(x, y, 0.01 * z + 0.3 * x + 0.2 * y) for x, y, z in cube()[0]], cube()[1]
+        for radius, lost in [(0.004, False), (0.009, True)]:
+            found = self.run_sinew("fill", self.write(plate), "--radius", radius, "--to", "tetrahedra", "-o", self.folder / "cells.vtu")
+            warning = [text for text in found["warnings"] if "tetrahedra" in text]
+            self.assertEqual(len(warning), lost, found["warnings"])
+            self.assertGreater(found["volume"], (0.5 if lost else 0.98) * found["body_volume"])
+        keeps = float(warning[0].split("a radius of ")[1].split()[0])
+        found = self.run_sinew("fill", self.write(plate), "--radius", keeps, "--to", "tetrahedra", "-o", self.folder / "cells.vtu")
+        self.assertGreater(found["volume"], 0.98 * found["body_volume"])
+
     def test_an_open_mesh_is_filled_and_told(self):
         points, faces = sphere()
         found = self.fill((points, faces[:-40]), "--radius", 0.05)

@@ -57,6 +57,24 @@ class FrameContent(unittest.TestCase):
             numpy.testing.assert_array_equal(some.points, all_of_them.points)
             numpy.testing.assert_array_equal(some.point_data["velocity"], all_of_them.point_data["velocity"])
 
+    def test_a_body_of_one_layer_lacks_strains_unless_they_are_named(self):
+        strip = "".join(f"v {x} {y} {z}\n" for z in (-.004, .004) for y in (0, .1) for x in (0, .4))
+        mesh, scene = self.runs / "strip.obj", self.runs / "strip.yaml"
+        mesh.write_text(strip + "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n")
+        scene.write_text(f"""body: {{mesh: {mesh}, radius: 0.005}}
+material: {{model: bonded, young_modulus: 1e5}}
+skeleton: {{bones: [{{name: a, head: [0, 0.05, 0], tail: [0.2, 0.05, 0]}}, {{name: b, parent: a, tail: [0.4, 0.05, 0]}}]}}
+motion: {{tracks: [{{bone: b, keys: [{{time: 0}}, {{time: 0.1, axis: [0, 0, 1], angle: 10}}]}}]}}
+solver: {{duration: 0.1}}
+""")
+        sinew("simulate", scene, "-o", self.runs / "strip", check=0)
+        last = meshio.read(frames(self.runs / "strip", "particles")[-1])
+        self.assertNotIn("strain_eq", last.point_data)
+        self.assertIn("velocity", last.point_data)
+        for name in ("strain_eq", "J"):
+            refused = sinew("simulate", scene, "-o", self.runs / "refused", "--set", f"output.arrays={name}", check=2)
+            self.assertIn("no particle has a value of " + name, refused.stderr)
+
     def test_particles_come_with_each_nth_frame_and_the_rest_with_all(self):
         run = self.simulated("every", every=4)
         for part, whole in zip(frames(run, "particles"), frames(self.whole, "particles")[::4], strict=True):

@@ -185,6 +185,30 @@ class New(unittest.TestCase):
             self.assertNotEqual(tails[near], "root", "one bone for a whole finger")
         self.runs()
 
+    def test_the_small_hole_of_a_ring_is_closed_and_bones_follow_it(self):
+        rows, columns = 48, 20
+        points = [(q * math.cos(a), q * math.sin(a), 0.035 * math.sin(b)) for a in (2 * math.pi * i / rows for i in range(rows))
+                  for b in (2 * math.pi * j / columns for j in range(columns)) for q in [0.1 + 0.035 * math.cos(b)]]
+        faces = [(i * columns + j, (i + 1) % rows * columns + j, (i + 1) % rows * columns + (j + 1) % columns, i * columns + (j + 1) % columns)
+                 for i in range(rows) for j in range(columns) if not (i < 6 and 12 <= j < 18)]
+        ring = self.write("ring.ply", "ply\nformat ascii 1.0\n" + f"element vertex {len(points)}\n"
+                          + "".join(f"property double {x}\n" for x in "xyz") + f"element face {len(faces)}\n"
+                          + "property list uchar int vertex_indices\nend_header\n"
+                          + "".join("%r %r %r\n" % p for p in points) + "".join("4 %d %d %d %d\n" % f for f in faces))
+        made = self.make(ring)
+        self.assertEqual(made["holes"], "1 hole of the mesh, closed (body.close_holes)")
+        self.assertIn("close_holes: true", self.scene.read_text())
+        tails = re.findall(r"tail: \[(.*?)\]", self.scene.read_text())
+        for x, y, z in (map(float, tail.split(",")) for tail in tails):
+            self.assertLess(math.hypot(math.hypot(x, y) - 0.1, z), 0.035, "a bone ends outside of the ring")
+
+    def test_up_is_as_told(self):
+        bar = self.write("bar.obj", BAR)
+        for axis in ("y", "z"):
+            self.make(bar, "--up", axis, "--force")
+            self.assertIn(f"as --up says", self.scene.read_text())
+        self.assertIn("give y or z", sinew("new", bar, "--up", "x", "--force", check=2, cwd=self.folder).stderr)
+
     def test_a_shape_without_a_mesh(self):
         self.make("--shape", "capsule", "--size", "0.1,0.1,0.4")
         self.assertTrue(self.scene.with_suffix(".obj").is_file())

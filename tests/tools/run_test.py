@@ -145,7 +145,7 @@ class Commands(SmallRun):
             return numpy.frombuffer(data, "<f4", offset=32).reshape(-1, 3) + numpy.array(origin) - far
 
         exact = ("--force", "--set=output.export=true", "--set=output.double_precision=true", "--set=material.model=bonded")
-        rows, surfaces = [], []
+        rows, surfaces, exported = [], [], []
         for far in (numpy.zeros(3), numpy.array([2.0 ** 20, 0, 0])):
             moved = [f"--set={key}.offset={far.tolist()}" for key in ("body", "skeleton")]
             self.simulate(*exact, *moved)
@@ -154,12 +154,17 @@ class Commands(SmallRun):
             beside = self.out / "surface.pc2.origin.json"
             self.assertEqual(beside.exists(), far.any())
             surfaces.append(points(json.loads(beside.read_text())["origin"] if far.any() else far))
+            stl = self.folder / f"at_{far[0]:.0f}.stl"
+            told = json.loads(sinew("export", self.out, "--to", "stl", "--times", "0", "-o", stl, "--json", check=0).stdout)
+            self.assertEqual(told.get("origin", [0, 0, 0]), far.tolist())
+            exported.append(numpy.frombuffer(stl.read_bytes()[84:], numpy.dtype("(12,)<f4, <u2"))["f0"])
         self.assertEqual(self.record()["origin"], far.tolist())
         self.assertIn("surface.pc2.origin.json", (self.out / "checksums.sfv").read_text())
         moving = (self.out / "surface.glb").read_bytes()
         document = json.loads(moving[20:20 + struct.unpack("<I", moving[12:16])[0]])
         self.assertEqual(document["nodes"][0]["translation"], [0, 0, far[0]])
         numpy.testing.assert_allclose(*surfaces, atol=1e-6)
+        numpy.testing.assert_allclose(*exported, atol=1e-6)
         for name in ("limb_turn_max", "volume_error", "strain_95", "angular_momentum_y", "tip_angle", "pair_energy"):
             near, other = (float(row[name]) for row in rows)
             self.assertAlmostEqual(near, other, delta=1e-5 * abs(near), msg=name)

@@ -241,7 +241,8 @@ TEST(VolumeCells, OfThinPlatesKeepWhatTheParticlesHaveOfThem) {
     EXPECT_GT(quality.smallest_volume, 0) << radii;
     EXPECT_GT(quality.angles.smallest, 5) << radii;
     for (const auto& [face, cells] : faces_of(body.cells)) ASSERT_LE(cells, 2) << radii;
-    const auto warning = cell_warning(quality.volume, volume(body.surface.triangles), body.surface);
+    const auto warning =
+        cell_warning(quality.volume, volume(body.surface.triangles), 0.03, body.surface);
     EXPECT_EQ(warning.has_value(), radii < 2) << radii;
   }
 }

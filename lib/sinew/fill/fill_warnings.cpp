@@ -134,15 +134,17 @@ void warn_of_groups(const FillReport& report, Warnings& warnings) {
 
 }  // namespace
 
-std::optional<std::string> cell_warning(double cells, double volume, const Surface& surface) {
-  constexpr double thinnest_with_cells = 2;  // radii: from there on they hold 99 % of a plate
+std::optional<std::string> cell_warning(double cells, double volume, double radius,
+                                        const Surface& surface) {
+  constexpr double thinnest_with_cells = 2;  // radii: from there on they hold 98 % of a plate
   if (cells > (1 - 2 * much_lost) * volume) return std::nullopt;
   const auto thinnest = thinnest_part(surface.triangles);
+  const bool thin = thinnest && *thinnest < thinnest_with_cells * radius;
   return "cells (tetrahedra) hold " + percent(cells / volume) + " of the body, " +
          three_digits(cells) + " of " + three_digits(volume) + " m^3: " +
-         (thinnest ? "they are lost in parts thinner than two radii; a radius of " +
-                         three_digits(*thinnest / thinnest_with_cells) + " m keeps them"
-                   : "a smaller radius keeps more");
+         (thin ? "they are lost in parts thinner than two radii; a radius of " +
+                     three_digits(*thinnest / thinnest_with_cells) + " m keeps them"
+               : "a smaller radius keeps more");
 }
 
 std::optional<std::string> size_warning(double longest) {

@@ -16,8 +16,10 @@ namespace sinew {
 /// of it was not filled.
 std::vector<std::string> warnings_of(const FillReport& report, const Surface& surface);
 
-/// A warning where the tetrahedra of a body hold clearly less than `volume` (both m^3).
-std::optional<std::string> cell_warning(double cells, double volume, const Surface& surface);
+/// A warning where the tetrahedra of a body hold clearly less than its `volume` (both m^3) at a
+/// radius (m).
+std::optional<std::string> cell_warning(double cells, double volume, double radius,
+                                        const Surface& surface);
 
 /// A warning where a body of that length (m) is so large or so small that its unit may be wrong.
 std::optional<std::string> size_warning(double longest);

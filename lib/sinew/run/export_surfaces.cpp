@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/run/export_surfaces.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
+#include <sinew/core/local_origin.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/mesh_formats.h>
 #include <sinew/mesh/refine.h>
@@ -23,10 +25,13 @@ std::string ply_text_of(const Triangles& surface) {
 }
 
 /// 80 bytes that do not begin with "solid", the number of triangles, and of each its normal, its
-/// corners and two bytes.
-std::string stl_text(const Triangles& surface) {
+/// corners from `origin` on and two bytes.
+std::string stl_text(const Triangles& surface, const Vec3& origin) {
   static_assert(std::endian::native == std::endian::little);
   std::string text = "binary STL of sinew, in meters";
+  if (!origin.isZero(0))
+    text = "STL of sinew, m from " + number_text(origin.x()) + ' ' + number_text(origin.y()) + ' ' +
+           number_text(origin.z());
   text.resize(80, ' ');
   const auto append = [&](const auto& value) {
     text.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -34,20 +39,20 @@ std::string stl_text(const Triangles& surface) {
   append(static_cast<std::uint32_t>(surface.faces.size()));
   for (const auto& [a, b, c] : surface.faces) {
     const Points& p = surface.points;
-    for (const Vec3& row : {Vec3((p[b] - p[a]).cross(p[c] - p[a]).normalized()), p[a], p[b], p[c]})
+    for (const Vec3& row : {Vec3((p[b] - p[a]).cross(p[c] - p[a]).normalized()),
+                            Vec3(p[a] - origin), Vec3(p[b] - origin), Vec3(p[c] - origin)})
       for (const double x : row) append(static_cast<float>(x));
     append(std::uint16_t{0});
   }
   return text;
 }
 
-struct Format {
-  std::string_view extension;
-  std::string (*text)(const Triangles&);
-};
+constexpr std::array<std::string_view, 3> extensions = {".obj", ".ply", ".stl"};
 
-constexpr std::array formats = {Format{".obj", obj_text}, Format{".ply", ply_text_of},
-                                Format{".stl", stl_text}};
+std::string text_of(const Triangles& surface, std::string_view extension, const Vec3& origin) {
+  if (extension == ".stl") return stl_text(surface, origin);
+  return extension == ".obj" ? obj_text(surface) : ply_text_of(surface);
+}
 
 const std::vector<PvdRow>& rows_of(const RunFiles& run, const std::string& series) {
   if (series == "surface") return run.surface_rows;
@@ -64,28 +69,29 @@ const std::vector<PvdRow>& rows_of(const RunFiles& run, const std::string& serie
 }  // namespace
 
 bool is_surface_file(std::string_view extension) {
-  for (const Format& format : formats)
-    if (format.extension == extension) return true;
-  return false;
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
-std::vector<std::filesystem::path> export_surfaces(const RunFiles& run, const SurfaceExport& as,
-                                                   const std::vector<std::size_t>& frames,
-                                                   const std::filesystem::path& target) {
+ExportedSurfaces export_surfaces(const RunFiles& run, const SurfaceExport& as,
+                                 const std::vector<std::size_t>& frames,
+                                 const std::filesystem::path& target) {
   const std::vector<PvdRow>& rows = rows_of(run, as.series);
   if (frames.size() > 1) create_folder(target);
-  std::vector<std::filesystem::path> files;
+  ExportedSurfaces done;
+  if (as.extension == ".stl" && !rows.empty())
+    done.origin =
+        local_origin(bounds(read_surface_frame(run.folder.path / rows.front().file).points));
   for (const std::size_t frame : frames) {
     if (frame >= rows.size())
       throw bad_input(Place{run.folder.path.string()},
                       "has no frame " + std::to_string(frame) + " of " + as.series,
                       "give earlier --times");
     const Triangles surface = read_surface_frame(run.folder.path / rows[frame].file);
-    files.push_back(frames.size() > 1 ? numbered(target, as.series, frame, as.extension) : target);
-    for (const Format& format : formats)
-      if (format.extension == as.extension) write_file(files.back(), format.text(surface));
+    done.files.push_back(frames.size() > 1 ? numbered(target, as.series, frame, as.extension)
+                                           : target);
+    write_file(done.files.back(), text_of(surface, as.extension, done.origin));
   }
-  return files;
+  return done;
 }
 
 }  // namespace sinew

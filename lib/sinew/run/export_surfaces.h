@@ -23,11 +23,16 @@ struct SurfaceExport {
   std::string extension;           ///< of is_surface_file()
 };
 
+struct ExportedSurfaces {
+  std::vector<std::filesystem::path> files;
+  Vec3 origin = Vec3::Zero();  ///< what the places in STL are relative to, m: see local_origin()
+};
+
 /// Writes these frames of a series to one file, or where there are several as SERIES_000000.obj and
 /// so on, by frame, in the folder `target`, which is created. Throws bad input for an unknown
 /// series and one that the run has not written, what reading throws, and not written.
-std::vector<std::filesystem::path> export_surfaces(const RunFiles& run, const SurfaceExport& as,
-                                                   const std::vector<std::size_t>& frames,
-                                                   const std::filesystem::path& target);
+ExportedSurfaces export_surfaces(const RunFiles& run, const SurfaceExport& as,
+                                 const std::vector<std::size_t>& frames,
+                                 const std::filesystem::path& target);
 
 }  // namespace sinew

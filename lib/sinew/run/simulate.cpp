@@ -134,7 +134,9 @@ class Run {
     const Motion motion = prepared.motion;
     std::optional<VolumeCells> cells = cells_to_write(prepared);
     if (cells && options_.warning)
-      if (const auto lost = lost_by_cells(*cells, prepared)) options_.warning(*lost);
+      if (const auto lost = lost_by_cells(*cells, prepared.filled.particles,
+                                          prepared.settings.material.density, prepared.surface))
+        options_.warning(*lost);
     FrameScene around{std::move(prepared.surface.triangles),
                       std::move(prepared.obstacles),
                       std::move(prepared.look),

@@ -76,19 +76,10 @@ std::optional<VolumeCells> cells_to_write(const Prepared& prepared) {
                        prepared.body.material.pair.r);
 }
 
-namespace {
-
-/// Mass over density of all particles.
-double volume_of(const Particles& particles, double density) {
-  return particles.mass * static_cast<double>(particles.size()) / density;
-}
-
-}  // namespace
-
-std::optional<std::string> lost_by_cells(const VolumeCells& cells, const Prepared& prepared) {
-  return cell_warning(quality_of(cells).volume,
-                      volume_of(prepared.filled.particles, prepared.settings.material.density),
-                      prepared.surface);
+std::optional<std::string> lost_by_cells(const VolumeCells& cells, const Particles& particles,
+                                         double density, const Surface& surface) {
+  const double volume = particles.mass * static_cast<double>(particles.size()) / density;
+  return cell_warning(quality_of(cells).volume, volume, particles.radius, surface);
 }
 
 namespace {
@@ -143,8 +134,7 @@ VolumeFrames frames_of(const RunFiles& run, std::optional<std::string>& warning)
   const double radius = run.body.particles.radius;
   const Surface surface = read_mesh(run.settings);
   VolumeCells cells = cells_of_body(run.settings, surface, rest, radius);
-  warning = cell_warning(quality_of(cells).volume,
-                         volume_of(run.body.particles, run.settings.material.density), surface);
+  warning = lost_by_cells(cells, run.body.particles, run.settings.material.density, surface);
   return {std::move(cells), rest, radius, run.skeleton, binding_of(*run.body.bone)};
 }
 

@@ -56,8 +56,9 @@ Dataset in_single_precision(Dataset particles, double radius);
 
 /// The cells of a scene's body, where it asks for them (output.volume).
 std::optional<VolumeCells> cells_to_write(const Prepared& prepared);
-/// A warning where they hold clearly less than the body.
-std::optional<std::string> lost_by_cells(const VolumeCells& cells, const Prepared& prepared);
+/// A warning where cells hold clearly less than a body of that density (kg/m^3).
+std::optional<std::string> lost_by_cells(const VolumeCells& cells, const Particles& particles,
+                                         double density, const Surface& surface);
 
 /// The cells of a run's body in its frames. Of bonds that may break, those count as broken that the
 /// run has written so, or else the longest ones of particles that have lost some.

@@ -81,8 +81,7 @@ std::vector<int> owners_of(const Surface& surface, const RowCrossings& crossings
 
 class ClosedSweep {
  public:
-  /// All arguments must outlive this. `crossings` are those of the surface, and of
-  /// its walls.
+  /// All arguments must outlive this. `crossings` are those of the surface and its walls.
   ClosedSweep(const Lattice& lattice, const Surface& surface, const RowCrossings& crossings);
 
   /// Adds the row's sites inside, in runs of the first component around them.

@@ -38,8 +38,7 @@ class Opposed {
       if (!gain.meets_others) alone[network_.first_of(face)].push_back(face);
       kinds.wall[face] = gain.meets_others && gain.closed > 0;
     }
-    while (turn_patches(kinds.wall)) {
-    }
+    turn_patches(kinds.wall);
     for (auto& [first, faces] : alone) kinds.alone.push_back(std::move(faces));
     return kinds;
   }
@@ -77,27 +76,52 @@ class Opposed {
     return gains;
   }
 
-  /// Makes walls of patches of skin, or skin of walls, where that leaves fewer odd edges. Returns
-  /// whether there were any.
-  bool turn_patches(std::vector<bool>& wall) {
-    std::map<int, int> gains;  // of each patch
-    for (const Edge& edge : edges_) {
-      std::map<int, int> uses;  // of each patch
-      int left = 0;
-      for (const EdgeUse& use : edge) {
-        left += !wall[use.face];
-        if (opposed_[use.face]) ++uses[patch_.first_of(use.face)];
+  /// Connected faces without others between them.
+  struct Patch {
+    std::vector<int> faces;
+    std::vector<std::size_t> rim;  ///< edges with an odd number of its faces
+  };
+
+  std::map<int, Patch> patches() {
+    std::map<int, Patch> patches;
+    for (int face = 0; face < static_cast<int>(opposed_.size()); ++face)
+      if (opposed_[face]) patches[patch_.first_of(face)].faces.push_back(face);
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      for (const auto& [patch, faces] : faces_at(edges_[e]))
+        if (faces % 2 > 0) patches[patch].rim.push_back(e);
+    return patches;
+  }
+
+  /// Number of faces of each patch at an edge.
+  std::map<int, int> faces_at(Edge edge) {
+    std::map<int, int> faces;
+    for (const EdgeUse& use : edge)
+      if (opposed_[use.face]) ++faces[patch_.first_of(use.face)];
+    return faces;
+  }
+
+  /// Makes walls of patches of skin, or skin of walls, as long as that leaves fewer odd edges.
+  void turn_patches(std::vector<bool>& wall) {
+    const std::map<int, Patch> all = patches();
+    std::vector<bool> odd;
+    for (const Edge& edge : edges_)
+      odd.push_back(std::count_if(edge.begin(), edge.end(),
+                                  [&](const EdgeUse& use) { return !wall[use.face]; }) %
+                        2 >
+                    0);
+    std::vector<int> queue;
+    for (const auto& [number, patch] : all) queue.push_back(number);
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const Patch& patch = all.at(queue[i]);
+      const auto closed = static_cast<std::size_t>(
+          std::count_if(patch.rim.begin(), patch.rim.end(), [&](std::size_t e) { return odd[e]; }));
+      if (2 * closed <= patch.rim.size()) continue;
+      for (const int face : patch.faces) wall[face] = !wall[face];
+      for (const std::size_t e : patch.rim) {
+        odd[e] = !odd[e];
+        for (const auto& [neighbor, faces] : faces_at(edges_[e])) queue.push_back(neighbor);
       }
-      for (const auto& [patch, count] : uses)
-        if (count % 2 > 0) gains[patch] += left % 2 > 0 ? 1 : -1;
     }
-    const auto best =
-        std::max_element(gains.begin(), gains.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (best == gains.end() || best->second <= 0) return false;
-    for (int face = 0; face < static_cast<int>(wall.size()); ++face)
-      if (opposed_[face] && patch_.first_of(face) == best->first) wall[face] = !wall[face];
-    return true;
   }
 
   const std::vector<bool>& opposed_;

@@ -75,8 +75,8 @@ UpGuess guess_up(const std::filesystem::path& mesh, const Points& points) {
   const double by_y = footprint(points, box, 1), by_z = footprint(points, box, 2);
   if (by_z > clearly * by_y) return {Axis::z, "the body stands along z on its lowest points"};
   if (by_y > clearly * by_z) return {Axis::y, "the body stands along y on its lowest points"};
-  if (format == ".obj") return {Axis::y, "y is up in most OBJ files; else give --up z"};
-  return {Axis::z, "nothing in the file says otherwise; else give --up y"};
+  if (format == ".obj") return {Axis::y, "y is up in most OBJ files (--up z: z)"};
+  return {Axis::z, "nothing in the file says otherwise (--up y: y)"};
 }
 
 }  // namespace sinew

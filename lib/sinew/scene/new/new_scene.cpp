@@ -111,8 +111,9 @@ std::optional<Surface> with_closed_holes(const Surface& open, BodyOptions body) 
   }
 }
 
-/// Reads the mesh; unit and axes as guessed, and its holes closed where they can be.
-Surface read_guessing(NewChoices& choices, const std::optional<Axis>& given_up) {
+/// Reads the mesh; unit and axes as guessed, and its holes closed where that is asked for and they
+/// can be.
+Surface read_guessing(NewChoices& choices, const std::optional<Axis>& given_up, bool close) {
   BodyOptions& body = choices.settings.body;
   Surface surface = read_body_mesh(body);
   const UnitGuess unit = guess_unit(body.mesh, extent(surface));
@@ -124,7 +125,7 @@ Surface read_guessing(NewChoices& choices, const std::optional<Axis>& given_up) 
   if (unit.unit != LengthUnit::m || up.up != Axis::z) surface = read_body_mesh(body);
   const std::vector<bool> open = open_shells(surface);
   const auto shells = std::count(open.begin(), open.end(), true);
-  if (auto closed = shells == 0 ? with_closed_holes(surface, body) : std::nullopt) {
+  if (auto closed = close && shells == 0 ? with_closed_holes(surface, body) : std::nullopt) {
     body.close_holes = true;
     const std::size_t holes = closed->cleaning.holes_closed;
     choices.holes = std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
@@ -261,10 +262,10 @@ NewScene new_scene(const NewSceneFiles& files) {
   Settings& settings = choices.settings;
   settings.body.mesh = files.mesh;
   settings.output.interval = 1 / pictures;
-  Surface surface =
-      files.figure == nullptr ? read_guessing(choices, files.up) : read_body_mesh(settings.body);
-  const std::string warning = surface.warning;
   const std::string rig = !files.rig.empty() ? files.rig : rig_within(files.mesh);
+  Surface surface = files.figure == nullptr ? read_guessing(choices, files.up, rig.empty())
+                                            : read_body_mesh(settings.body);
+  const std::string warning = surface.warning;
   if (files.figure != nullptr)
     use_rig(*files.figure, surface, choices);
   else if (!rig.empty())
