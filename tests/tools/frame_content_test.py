@@ -72,7 +72,7 @@ solver: {{duration: 0.1}}
         self.assertNotIn("strain_eq", last.point_data)
         self.assertIn("velocity", last.point_data)
         for name in ("strain_eq", "J"):
-            refused = sinew("simulate", scene, "-o", self.runs / "refused", "--set", f"output.arrays={name}", check=2)
+            refused = sinew("simulate", scene, "-o", self.runs / "refused", "--force", "--set", f"output.arrays={name}", check=2)
             self.assertIn("no particle has a value of " + name, refused.stderr)
 
     def test_particles_come_with_each_nth_frame_and_the_rest_with_all(self):

@@ -136,13 +136,13 @@ void warn_of_groups(const FillReport& report, Warnings& warnings) {
 
 std::optional<std::string> cell_warning(double cells, double volume, double radius,
                                         const Surface& surface) {
-  constexpr double thinnest_with_cells = 2;  // radii: from there on they hold 98 % of a plate
+  constexpr double thinnest_with_cells = 3;  // radii: of walls as thick they hold 99.9 %
   if (cells > (1 - 2 * much_lost) * volume) return std::nullopt;
   const auto thinnest = thinnest_part(surface.triangles);
   const bool thin = thinnest && *thinnest < thinnest_with_cells * radius;
   return "cells (tetrahedra) hold " + percent(cells / volume) + " of the body, " +
          three_digits(cells) + " of " + three_digits(volume) + " m^3: " +
-         (thin ? "they are lost in parts thinner than two radii; a radius of " +
+         (thin ? "they are lost in parts thinner than three radii; a radius of " +
                      three_digits(*thinnest / thinnest_with_cells) + " m keeps them"
                : "a smaller radius keeps more");
 }

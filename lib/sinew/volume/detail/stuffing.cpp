@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t edges_at_a_time = 64;
 constexpr double longest_touching = 2.4;  // radii
 constexpr double flat_at_crease = 12;     // degrees
-constexpr double thin_wall = 1;           // edges
+constexpr double thin_wall = 1;           // of the longest edge between touching sites
 constexpr double flat_in_wall = 8;        // degrees
 constexpr double nearest_side = 0.22;     // of its thickness, from a point in it
 constexpr double opposed = -0.6;          // cosine between crossings on two sides of a wall
