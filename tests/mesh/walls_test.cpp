@@ -120,4 +120,22 @@ TEST(Walls, BesideTheTwoSidedPartOfASkinAreToldApart) {
   EXPECT_NEAR(volume(surface.triangles), 2, 1e-12);
 }
 
+/// Four faces around a corner on one side of a block: half of each one's edges are within them.
+TEST(Walls, BesideManyTwoSidedFacesAreToldApart) {
+  PolygonSoup soup = cells(4, 4, 4);
+  const std::size_t faces = soup.polygons.size();
+  for (std::size_t f = 0; f < faces; ++f) {
+    Vec3 middle = Vec3::Zero();
+    for (const int corner : soup.polygons[f]) middle += soup.points[corner] / 4;
+    if (middle.z() != 4 || (middle - Vec3(2, 2, 4)).norm() > 1) continue;
+    soup.polygons.push_back(soup.polygons[f]);
+    std::reverse(soup.polygons.back().begin(), soup.polygons.back().end());
+  }
+  ASSERT_EQ(soup.polygons.size(), faces + 4);
+  const Surface surface = clean(soup);
+  EXPECT_TRUE(surface.closed());
+  EXPECT_EQ(surface.cleaning.faces_shared, walls_of(4, 4, 4));
+  EXPECT_NEAR(volume(surface.triangles), 64, 1e-9);
+}
+
 }  // namespace sinew::walls_test

@@ -44,6 +44,13 @@ void check_soup(const PolygonSoup& soup) {
   for (const auto& polygon : soup.polygons) check_polygon(polygon, soup.points.size());
 }
 
+PolygonSoup soup_of(const Triangles& triangles) {
+  PolygonSoup soup{triangles.points, {}};
+  soup.polygons.reserve(triangles.faces.size());
+  for (const auto& face : triangles.faces) soup.polygons.emplace_back(face.begin(), face.end());
+  return soup;
+}
+
 namespace {
 
 constexpr double largest_coordinate = 1e90;  // its cube and sums of cubes do not overflow

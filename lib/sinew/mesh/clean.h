@@ -14,6 +14,9 @@ namespace sinew {
 /// points of it, and finite coordinates.
 void check_soup(const PolygonSoup& soup);
 
+/// The faces as polygons.
+PolygonSoup soup_of(const Triangles& triangles);
+
 struct CleaningOptions {
   double weld = 0;  ///< points closer than this are merged, m; 0: only equal ones
   FillRule rule = FillRule::unite;

@@ -43,13 +43,6 @@ void place(PolygonSoup& soup, const BodyOptions& body) {
 
 namespace {
 
-PolygonSoup soup_of(const Triangles& triangles) {
-  PolygonSoup soup{triangles.points, {}};
-  soup.polygons.reserve(triangles.faces.size());
-  for (const auto& face : triangles.faces) soup.polygons.emplace_back(face.begin(), face.end());
-  return soup;
-}
-
 /// Cleans the result of a repair again; keeps the counts of the first cleaning.
 Surface cleaned_again(const Surface& before, const Triangles& repaired, FillRule rule) {
   Surface surface = clean(soup_of(repaired), {0, rule});

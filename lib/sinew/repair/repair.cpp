@@ -12,6 +12,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/mesh/border.h>
+#include <sinew/mesh/solids.h>
 #include <sinew/mesh/surface.h>
 #include <sinew/repair/detail/holes.h>
 
@@ -196,9 +197,7 @@ double volume_behind_holes(const Triangles& surface) {
   const Triangles caps = caps_of(border_loops(edge_uses(surface)), surface.points);
   if (caps.faces.empty()) return 0;
   Triangles all = surface;
-  const int first = static_cast<int>(all.points.size());
-  all.points.insert(all.points.end(), caps.points.begin(), caps.points.end());
-  for (const auto& [a, b, c] : caps.faces) all.faces.push_back({first + a, first + b, first + c});
+  append(caps, all);
   return std::abs(volume(all));
 }
 

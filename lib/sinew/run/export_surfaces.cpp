@@ -10,6 +10,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/local_origin.h>
 #include <sinew/core/text.h>
+#include <sinew/mesh/clean.h>
 #include <sinew/mesh/mesh_formats.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/run/export_run.h>
@@ -17,12 +18,6 @@
 
 namespace sinew {
 namespace {
-
-std::string ply_text_of(const Triangles& surface) {
-  PolygonSoup soup{surface.points, {}};
-  for (const auto& face : surface.faces) soup.polygons.emplace_back(face.begin(), face.end());
-  return ply_text(soup);
-}
 
 /// 80 bytes that do not begin with "solid", the number of triangles, and of each its normal, its
 /// corners from `origin` on and two bytes.
@@ -51,7 +46,7 @@ constexpr std::array<std::string_view, 3> extensions = {".obj", ".ply", ".stl"};
 
 std::string text_of(const Triangles& surface, std::string_view extension, const Vec3& origin) {
   if (extension == ".stl") return stl_text(surface, origin);
-  return extension == ".obj" ? obj_text(surface) : ply_text_of(surface);
+  return extension == ".obj" ? obj_text(surface) : ply_text(soup_of(surface));
 }
 
 const std::vector<PvdRow>& rows_of(const RunFiles& run, const std::string& series) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 #include <tuple>
 
@@ -109,13 +110,16 @@ class Opposed {
                                   [&](const EdgeUse& use) { return !wall[use.face]; }) %
                         2 >
                     0);
+    std::set<int> tried;  // walls that became skin for nothing: others beside them may follow
     std::vector<int> queue;
     for (const auto& [number, patch] : all) queue.push_back(number);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const Patch& patch = all.at(queue[i]);
       const auto closed = static_cast<std::size_t>(
           std::count_if(patch.rim.begin(), patch.rim.end(), [&](std::size_t e) { return odd[e]; }));
-      if (2 * closed <= patch.rim.size()) continue;
+      const bool even = 2 * closed == patch.rim.size() && wall[patch.faces.front()];
+      if (2 * closed <= patch.rim.size() && !(closed > 0 && even && tried.insert(queue[i]).second))
+        continue;
       for (const int face : patch.faces) wall[face] = !wall[face];
       for (const std::size_t e : patch.rim) {
         odd[e] = !odd[e];

@@ -35,9 +35,7 @@ Box box_around(const std::vector<Capsule>& capsules) {
 /// Whether a skin is around all parts.
 bool holds(const Triangles& skin, const std::vector<Capsule>& capsules) {
   if (skin.faces.empty()) return false;
-  PolygonSoup soup{skin.points, {}};
-  for (const auto& face : skin.faces) soup.polygons.emplace_back(face.begin(), face.end());
-  const Winding winding = winding_of(clean(soup));
+  const Winding winding = winding_of(clean(soup_of(skin)));
   return std::all_of(capsules.begin(), capsules.end(), [&](const Capsule& one) {
     const auto is_inside = [&](double s) {
       return winding.around(one.from + s * (one.to - one.from)).value_or(0) > 0;

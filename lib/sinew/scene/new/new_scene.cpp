@@ -13,6 +13,7 @@
 #include <sinew/material/laws.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/refine.h>
+#include <sinew/mesh/solids.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/repair/curve_skeleton.h>
 #include <sinew/rig/limbs.h>
@@ -40,10 +41,7 @@ double extent(const Surface& surface) {
 Surface layer_along(const Surface& sheet, NewChoices& choices) {
   const double thickness = layer_fraction * extent(sheet);
   choices.changed = "a layer of " + three_digits(thickness) + " m along";
-  const Triangles layer = thickened(sheet.triangles, thickness);
-  PolygonSoup soup{layer.points, {}};
-  for (const auto& face : layer.faces) soup.polygons.emplace_back(face.begin(), face.end());
-  return clean(soup);
+  return clean(soup_of(thickened(sheet.triangles, thickness)));
 }
 
 /// Whether each component has holes so large that it encloses nothing: a mask, a skirt, not
@@ -76,23 +74,16 @@ std::vector<bool> open_shells(const Surface& surface) {
 /// The mesh with layers in place of the shells in it.
 Surface layered_shells(const Surface& surface, const std::vector<bool>& open, NewChoices& choices) {
   const Triangles& mesh = surface.triangles;
-  Triangles shells{mesh.points, {}};
-  PolygonSoup soup{mesh.points, {}};
+  Triangles shells{mesh.points, {}}, all{mesh.points, {}};
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    if (open[static_cast<std::size_t>(surface.component[f])])
-      shells.faces.push_back(mesh.faces[f]);
-    else
-      soup.polygons.emplace_back(mesh.faces[f].begin(), mesh.faces[f].end());
+    (open[static_cast<std::size_t>(surface.component[f])] ? shells : all)
+        .faces.push_back(mesh.faces[f]);
   const double thickness = layer_fraction * extent(surface);
-  const Triangles layers = thickened(shells, thickness);
-  const int first = static_cast<int>(soup.points.size());
-  soup.points.insert(soup.points.end(), layers.points.begin(), layers.points.end());
-  for (const auto& [a, b, c] : layers.faces)
-    soup.polygons.push_back({a + first, b + first, c + first});
+  append(thickened(shells, thickness), all);
   const auto count = std::count(open.begin(), open.end(), true);
   choices.changed = "layers of " + three_digits(thickness) + " m along " + std::to_string(count) +
                     " open " + (count == 1 ? "shell" : "shells") + " of";
-  return clean(soup);
+  return clean(soup_of(all));
 }
 
 /// The mesh with its holes closed, where that adds little to its skin.

@@ -102,9 +102,7 @@ Triangles skin_of(const std::vector<FigurePart>& parts, double height) {
 
 /// The fraction of the middles of bones that lie in a skin.
 double fraction_inside(const Skeleton& skeleton, const Triangles& skin) {
-  PolygonSoup soup{skin.points, {}};
-  for (const auto& face : skin.faces) soup.polygons.emplace_back(face.begin(), face.end());
-  const Winding winding = winding_of(clean(soup));
+  const Winding winding = winding_of(clean(soup_of(skin)));
   const auto inside =
       std::count_if(skeleton.bones.begin(), skeleton.bones.end(), [&](const Bone& bone) {
         return winding.around((bone.head() + bone.tail()) / 2).value_or(0) > 0;

@@ -127,12 +127,9 @@ void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewCh
 
 Prepared tried(const Surface& surface, const NewChoices& choices, std::optional<BodyFile> filled) {
   Settings settings = choices.settings;
-  PolygonSoup soup{surface.triangles.points, {}};
-  for (const auto& face : surface.triangles.faces)
-    soup.polygons.emplace_back(face.begin(), face.end());
   settings.body.mesh = "body";
   settings.body.unit = LengthUnit::m, settings.body.up = Axis::z, settings.body.forward.reset();
-  settings.meshes["body"] = std::move(soup);
+  settings.meshes["body"] = soup_of(surface.triangles);
   settings.motion.begin = choices.begins_posed ? Begin::pose : Begin::rest;
   if (!filled) {
     Settings quick = choices.settings;  // without shares of volume, 24 finer fillings
