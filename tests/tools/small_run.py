@@ -45,7 +45,7 @@ CACHE = BIN.parent / "CMakeCache.txt"  # not there where sinew is installed
 HAS_GROUPS = not CACHE.is_file() or "SINEW_GROUPS:BOOL=OFF" not in CACHE.read_text()
 
 
-def sinew(*words, check=None, timeout=120, **options):
+def sinew(*words, check=None, timeout=300, **options):
     done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True,
                           timeout=timeout, **options)
     if check is not None and done.returncode != check:
