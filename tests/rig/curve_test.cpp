@@ -108,7 +108,7 @@ TEST(Curve, OfStepsJumpsAtItsKeysHoweverTheirTimesAreRounded) {
     for (const double time : {k / 24.0, k * frame, 7 * k * step, std::nextafter(k / 24.0, 0)}) {
       EXPECT_EQ(steps.at(time).value, k);
       EXPECT_LT(turns.at(time).value.angularDistance(turns.values[k]), 1e-6);
-      if (k > 0) EXPECT_EQ(steps.at(time - step).value, k - 1);
+      EXPECT_EQ(steps.at(time - step).value, std::max(k - 1, 0));
     }
   CurvePiece<double> kept = steps.piece_at(0);  // as long as it says that it is valid
   for (int n = 0; n <= 7 * 2400; ++n) {
