@@ -64,6 +64,60 @@ TEST(ParticleParts, OfASurfaceAreTheParticlesNextToIt) {
             world.where([&](const Vec3& p) { return p.z() == high; }).size());
 }
 
+/// A tube along z from 0 to `height`, in 64 sectors: bore of radius a, shaft of radius b, two rims.
+Triangles tube(double a, double b, double height) {
+  constexpr int sectors = 64;
+  Triangles made;
+  for (int k = 0; k < sectors; ++k)
+    for (const double radius : {a, b})
+      for (const double z : {0.0, height}) {
+        const double angle = 2 * pi * k / sectors;
+        made.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+      }
+  for (int k = 0; k < sectors; ++k) {
+    const int at = 4 * k, next = 4 * ((k + 1) % sectors);  // order: bore, bore above, shaft, above
+    const int pairs[4][2] = {{1, 0}, {2, 3}, {0, 2}, {3, 1}};
+    for (const auto& [p, q] : pairs) {
+      made.faces.push_back({at + p, next + q, next + p});
+      made.faces.push_back({at + p, at + q, next + q});
+    }
+  }
+  return made;
+}
+
+TEST(ParticleParts, AroundAnAxisAreBoresAndShaftsWithoutTheirRims) {
+  constexpr double a = 0.05, b = 0.09, height = 0.1;
+  const Settings settings = test::box_scene(15);
+  for (const Vec3& move : {Vec3(0, 0, 0), Vec3(3, -2, 5)}) {
+    Points rest = test::fcc_box(13, 13, 8, r);
+    const Vec3 middle = bounds(rest).center();
+    for (Vec3& p : rest) p += Vec3(0, 0, height / 2) - middle;
+    std::erase_if(rest, [&](const Vec3& p) {
+      const double far = std::hypot(p.x(), p.y());
+      return far < a || far > b;
+    });
+    for (Vec3& p : rest) p += move;
+    Triangles surface = tube(a, b, height);
+    ASSERT_GT(volume(surface), 0);
+    for (Vec3& p : surface.points) p += move;
+    const Body body = test::make_body(settings, rest);
+    const ParticleParts parts(settings, body, surface, {});
+    PartSettings part;
+    part.axis = Vec3(0, 0, -3), part.axis_point = move + Vec3(0, 0, 7);
+    const double sides = 64 * 2 * std::sin(pi / 64) * height;  // over the radius
+    part.facing_axis = AxisSide::inward;
+    EXPECT_NEAR(area(parts.faces(part, "")), a * sides, 1e-12);
+    EXPECT_NEAR(area(parts.pressed_faces(part, "")), a * sides, 1e-12);
+    part.facing_axis = AxisSide::outward;
+    EXPECT_NEAR(area(parts.faces(part, "")), b * sides, 1e-12);
+    part.axis_radius = (a + b) / 2;
+    test::expect_error([&] { parts.faces(part, "loads[0]"); }, {"no face", "loads[0]"});
+    part.facing_axis = AxisSide::none;
+    for (const std::uint32_t i : parts.particles(part, ""))
+      EXPECT_LE(std::hypot(rest[i].x() - move.x(), rest[i].y() - move.y()), *part.axis_radius);
+  }
+}
+
 TEST(ParticleParts, AreWhatIsInAllRegionsThatAreGiven) {
   const World world;
   PartSettings part;

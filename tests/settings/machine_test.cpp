@@ -34,6 +34,7 @@ loads:
     normal: [0, 0, -1]
     component: 0
     keys: [{time: 0, factor: 0}, {time: 2, factor: 1}]
+  - {name: oil, pressure: 10, axis: [0, 0, 2], axis_point: [0, 0, 1], axis_radius: 0.1, facing_axis: inward}
 probes:
   - {name: tip, at: [0, 0, 1]}
   - {name: middle, bone: lower}
@@ -50,11 +51,12 @@ TEST(MachineSettings, HaveAllTheyAreGiven) {
   EXPECT_EQ(settings.supports[0].hold, HeldAxes::xyz);
   EXPECT_EQ(settings.supports[1].hold, HeldAxes::xz);
   EXPECT_EQ(settings.supports[1].keys[1].angle, 720);
-  ASSERT_EQ(settings.loads.size(), 4U);
+  ASSERT_EQ(settings.loads.size(), 5U);
   EXPECT_EQ(settings.loads[0].gravity->z(), -9.81);
   EXPECT_EQ(*settings.loads[1].part.ids, (std::vector<double>{1, 2}));
   EXPECT_EQ(settings.loads[2].part.facing_angle, 45);
   EXPECT_EQ(settings.loads[3].keys[0].value, 0);
+  EXPECT_EQ(settings.loads[4].part.facing_axis, AxisSide::inward);
   ASSERT_EQ(settings.probes.size(), 2U);
   EXPECT_EQ(settings.probes[0].at, Vec3(0, 0, 1));
   EXPECT_EQ(settings.probes[1].part.bone, "lower");

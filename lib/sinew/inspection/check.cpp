@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -21,6 +22,8 @@
 #include <sinew/scene/check/warnings.h>
 #include <sinew/scene/groups.h>
 #include <sinew/scene/intrusions.h>
+#include <sinew/scene/machine.h>
+#include <sinew/scene/particle_parts.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
@@ -190,6 +193,37 @@ void add_spans(const Prepared& prepared, Findings& results) {
   if (!all.empty()) results.add_value("along_spans", std::move(all));
 }
 
+/// Adds the faces that supports and loads on the surface take, by the axis next to their normals.
+void add_faces(const Prepared& prepared, Findings& results) {
+  const ParticleParts parts(prepared.settings, prepared.body, prepared.surface.triangles,
+                            prepared.filled.component);
+  const auto add = [&](const std::string& name, const PartSettings& part, const std::string& path) {
+    const Triangles faces = parts.faces(part, path);
+    std::map<std::string, double> area_by_axis;
+    double sum = 0;
+    for (const auto& face : faces.faces) {
+      const Vec3 area = area_vector(faces, face);
+      Eigen::Index axis = 0;
+      area.cwiseAbs().maxCoeff(&axis);
+      area_by_axis[std::string(area[axis] < 0 ? "-" : "+") + "xyz"[axis]] += area.norm();
+      sum += area.norm();
+    }
+    std::string shares;
+    for (const auto& [axis, area] : area_by_axis)
+      shares +=
+          (shares.empty() ? ": " : ", ") + three_digits(100 * area / sum) + " % along " + axis;
+    results.add_line("faces_of_part", name + ", " + std::to_string(faces.faces.size()) +
+                                          " faces, " + three_digits(sum) + " m^2" + shares);
+  };
+  const Settings& settings = prepared.settings;
+  for (std::size_t k = 0; k < settings.supports.size(); ++k)
+    if (const auto& one = settings.supports[k]; one.part.faces())
+      add(one.name, one.part, path_of_one("supports", k));
+  for (std::size_t k = 0; k < settings.loads.size(); ++k)
+    if (const auto& one = settings.loads[k]; one.pressure || one.traction || one.part.faces())
+      add(one.name, one.part, path_of_one("loads", k));
+}
+
 /// What the flesh of bones that stretch reaches from end to end.
 void add_stretches(const Prepared& prepared, Findings& results) {
   for (const Track& track : prepared.motion.tracks) {
@@ -346,6 +380,7 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
       modes, results);
   add_planes(prepared.body, results);
   add_spans(prepared, results);
+  add_faces(prepared, results);
   for (const ModelLimit& limit : model_limits(prepared))
     results.add(limit.key, limit.value, limit.text);
   add_stretches(prepared, results);

@@ -6,6 +6,7 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/triangles.h>
+#include <sinew/scene/part_region.h>
 #include <sinew/scene/particle_parts.h>
 
 namespace sinew {
@@ -42,19 +43,11 @@ ElementParts::ElementParts(const Settings& settings, const VolumeMesh& mesh)
       slack_(1e-9 * bounds(mesh.nodes).diagonal().norm()) {}
 
 bool ElementParts::holds(const PartSettings& part, const Vec3& place) const {
-  const RegionSettings& region = part.region;
-  const Vec3 wide = Vec3::Constant(slack_);
-  if (region.low && !Box(*region.low - wide, *region.high + wide).contains(place)) return false;
-  if (region.center && !((place - *region.center).norm() <= *region.radius + slack_)) return false;
-  return !part.point || (place - *part.point).dot(part.normal->normalized()) >= -slack_;
+  return is_in_region(part, place, slack_);
 }
 
 bool ElementParts::faces_it(const PartSettings& part, const ElementFace& face) const {
-  constexpr double slack = 1e-9;  // faces at exactly that angle are in
-  if (!part.facing) return true;
-  const Vec3 area = area_vector(mesh_, face);
-  return area.dot(part.facing->normalized()) >=
-         (std::cos(radians(part.facing_angle)) - slack) * area.norm();
+  return faces_as(part, area_vector(mesh_, face), center_of(mesh_, face));
 }
 
 void ElementParts::check(const PartSettings& part, const std::string& path) const {
@@ -78,7 +71,7 @@ std::vector<std::uint32_t> ElementParts::nodes(const PartSettings& part,
                                                const std::string& path) const {
   check(part, path);
   std::vector<std::uint32_t> found;
-  if (part.facing) {
+  if (part.faces()) {
     for (const ElementFace& face : surface_)
       if (faces_it(part, face))
         for (const std::uint32_t node : face_nodes(mesh_.elements[face.element], face.face))
@@ -106,9 +99,9 @@ std::vector<ElementFace> ElementParts::faces(const PartSettings& part,
 std::vector<std::uint32_t> ElementParts::elements(const PartSettings& part,
                                                   const std::string& path) const {
   check(part, path);
-  if (part.facing)
-    throw bad_input(settings_.place(path + ".facing"), "a surface has no elements",
-                    "name the part by a box, a ball or a plane");
+  if (part.faces())
+    throw bad_input(settings_.place(path + (part.facing ? ".facing" : ".facing_axis")),
+                    "a surface has no elements", "name the part by a box, a ball or a plane");
   std::vector<std::uint32_t> found;
   for (std::uint32_t e = 0; e < mesh_.elements.size(); ++e)
     if (holds(part, center_of(mesh_, mesh_.elements[e]))) found.push_back(e);

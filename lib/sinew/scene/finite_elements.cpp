@@ -161,7 +161,7 @@ Vec3 middle_of(const VolumeMesh& mesh, const ElementParts& parts, const PartSett
                const std::string& path, const std::vector<std::uint32_t>& nodes) {
   Vec3 sum = Vec3::Zero();
   double weight = 0;
-  if (part.facing) {
+  if (part.faces()) {
     for (const ElementFace& face : parts.faces(part, path)) {
       const double area = area_vector(mesh, face).norm();
       sum += area * center_of(mesh, face), weight += area;
@@ -272,7 +272,7 @@ NodeLoad load_of(const LoadSettings& given, const std::string& path, const Setti
     load.scale.times.push_back(key.time);
     load.scale.values.push_back(key.value);
   }
-  if (given.pressure || given.traction || (given.force && given.part.facing)) {
+  if (given.pressure || given.traction || (given.force && given.part.faces())) {
     const std::vector<ElementFace> on = parts.faces(given.part, path);
     double area = 0;
     for (const ElementFace& face : on) area += area_vector(mesh, face).norm();

@@ -11,11 +11,12 @@
 #include <sinew/scene/world.h>
 
 namespace sinew {
-namespace {
 
 std::string path_of_one(const char* list, std::size_t index) {
   return std::string(list) + '[' + std::to_string(index) + ']';
 }
+
+namespace {
 
 /// Throws bad input where the entries of a list so far are on more particles than any machine's:
 /// each takes memory and time by its particles.
@@ -80,7 +81,7 @@ Load by_area(const LoadSettings& given, const std::string& path, const Body& bod
 
 Load load_of(const LoadSettings& given, const std::string& path, const Body& body,
              const ParticleParts& parts) {
-  const bool on_surface = given.pressure || given.traction || (given.force && given.part.facing);
+  const bool on_surface = given.pressure || given.traction || (given.force && given.part.faces());
   Load load = on_surface ? by_area(given, path, body, parts) : by_mass(given, path, body, parts);
   if (given.pivot) load.pivot = *given.pivot;
   for (const ValueKeySettings& key : given.keys) {

@@ -14,6 +14,9 @@
 
 namespace sinew {
 
+/// Path of an entry of a scene's list, as errors name it: "supports[0]".
+std::string path_of_one(const char* list, std::size_t index);
+
 /// Adds the lists `supports` and `loads` to a world that has its pins. Throws bad input, with the
 /// scene's line, for parts without particles or faces, and for supports that contradict each other.
 void add_machine(const Settings& settings, const Body& body, const ParticleParts& parts,

@@ -11,6 +11,7 @@
 #include <sinew/mesh/surface.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/scene/body.h>
+#include <sinew/scene/part_region.h>
 #include <sinew/scene/rig.h>
 #include <sinew/world/following_points.h>
 #include <sinew/world/loads.h>
@@ -25,6 +26,10 @@ std::string corner(const Vec3& point) {
 
 Vec3 center_of(const Triangles& surface, const std::array<int, 3>& face) {
   return (surface.points[face[0]] + surface.points[face[1]] + surface.points[face[2]]) / 3;
+}
+
+bool looks_as(const PartSettings& part, const Triangles& surface, const std::array<int, 3>& face) {
+  return faces_as(part, area_vector(surface, face), center_of(surface, face));
 }
 
 /// Returns the winding of a mesh that is placed as the body's.
@@ -72,7 +77,6 @@ class ParticleParts::Test {
   Test(const ParticleParts& parts, const PartSettings& part, const std::string& path)
       : parts_(parts), part_(part) {
     bone_ = bone_at(parts.settings_, path, parts.body_.skeleton, part.bone);
-    if (part.facing) direction_ = part.facing->normalized();
     if (part.ids)
       ids_ = ids_of(parts_.settings_, path + ".ids", *part_.ids, parts_.body_.rest.size());
     if (part.component && parts.component_.empty())
@@ -83,27 +87,17 @@ class ParticleParts::Test {
 
   /// Whether a particle, or a place next to it, is in the part.
   bool holds(std::uint32_t particle, const Vec3& place) const {
-    const RegionSettings& region = part_.region;
-    if (region.low && !Box(*region.low, *region.high).contains(place)) return false;
-    if (region.center && !((place - *region.center).norm() <= *region.radius)) return false;
-    if (part_.point && !((place - *part_.point).dot(*part_.normal) >= 0)) return false;
+    if (!is_in_region(part_, place)) return false;
     if (part_.component && parts_.component_[particle] != *part_.component) return false;
     if (inside_ && inside_->around(place).value_or(0) <= 0) return false;
     if (bone_ != no_bone && parts_.body_.binding.bone(particle) != bone_) return false;
     return !part_.ids || std::binary_search(ids_.begin(), ids_.end(), particle);
   }
 
-  bool faces(const Vec3& area) const {
-    constexpr double slack = 1e-9;  // faces at exactly that angle are in
-    return !part_.facing ||
-           area.dot(direction_) >= (std::cos(radians(part_.facing_angle)) - slack) * area.norm();
-  }
-
  private:
   const ParticleParts& parts_;
   const PartSettings& part_;
   int bone_ = no_bone;
-  Vec3 direction_ = Vec3::Zero();
   std::vector<std::uint32_t> ids_;
   std::optional<Winding> inside_;
 };
@@ -146,11 +140,10 @@ std::vector<std::uint32_t> ParticleParts::particles(const PartSettings& part,
                                                     const std::string& path) const {
   const Test test(*this, part, path);
   std::vector<std::uint32_t> found;
-  if (part.facing) {
+  if (part.faces()) {
     const Triangles& fine = fine_surface(path);
     for (std::size_t f = 0; f < fine.faces.size(); ++f)
-      if (test.faces(area_vector(fine, fine.faces[f])) &&
-          test.holds(nearest_[f], body_.rest[nearest_[f]]))
+      if (looks_as(part, fine, fine.faces[f]) && test.holds(nearest_[f], body_.rest[nearest_[f]]))
         found.push_back(nearest_[f]);
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -168,7 +161,7 @@ Triangles ParticleParts::faces(const PartSettings& part, const std::string& path
   const Triangles& fine = fine_surface(path);
   std::vector<std::array<int, 3>> found;
   for (std::size_t f = 0; f < fine.faces.size(); ++f)
-    if (test.faces(area_vector(fine, fine.faces[f])) &&
+    if (looks_as(part, fine, fine.faces[f]) &&
         test.holds(nearest_[f], center_of(fine, fine.faces[f])))
       found.push_back(fine.faces[f]);
   if (!found.empty()) return without_other_points(fine, found);
@@ -178,9 +171,11 @@ Triangles ParticleParts::faces(const PartSettings& part, const std::string& path
 
 namespace {
 
-/// Whether it is told apart by the direction that it faces alone.
+/// Whether no region but the direction that it faces tells it apart.
 bool is_by_direction(PartSettings part) {
   part.facing.reset();
+  if (!part.axis_radius) part.axis.reset();
+  part.facing_axis = AxisSide::none;
   return part.empty();
 }
 
@@ -188,11 +183,10 @@ bool is_by_direction(PartSettings part) {
 
 Triangles ParticleParts::pressed_faces(const PartSettings& part, const std::string& path) const {
   if (!is_by_direction(part) || surface_.faces.empty()) return faces(part, path);
-  const Test test(*this, part, path);
   const Triangles coarse = refined(surface_, longest_pressed_side * body_.material.pair.r);
   std::vector<std::array<int, 3>> found;
   for (const auto& face : coarse.faces)
-    if (test.faces(area_vector(coarse, face))) found.push_back(face);
+    if (looks_as(part, coarse, face)) found.push_back(face);
   return found.empty() ? faces(part, path) : without_other_points(coarse, found);
 }
 

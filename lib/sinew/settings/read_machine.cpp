@@ -19,6 +19,11 @@ void check_part(const PartSettings& part, const std::string& path, const Setting
     throw bad_input(settings.place(path), path + " has half of a plane", "give point and normal");
   check_direction(part.normal, path + ".normal", settings);
   check_direction(part.facing, path + ".facing", settings);
+  check_direction(part.axis, path + ".axis", settings);
+  const bool around = part.axis_radius || part.facing_axis != AxisSide::none;
+  if (part.axis.has_value() != around || part.axis_point.has_value() != around)
+    throw bad_input(settings.place(path), path + " has a part of an axis",
+                    "give axis and axis_point, and axis_radius, facing_axis or both");
 }
 
 void read_support(const YamlNode& item, const std::string& path, SupportSettings& support,

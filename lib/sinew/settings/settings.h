@@ -102,20 +102,28 @@ struct WorldSettings {
   }
 };
 
+/// Side of a face around an axis: a bore looks at its axis, a shaft away from it.
+enum class AxisSide { none, inward, outward };
+
 /// A part of the body at rest: what is in all of the regions that are given. None: all of it.
 struct PartSettings {
-  RegionSettings region = {};                   ///< a box or a ball
-  std::optional<Vec3> point = {}, normal = {};  ///< of a plane: what is in front of it
+  RegionSettings region = {};                      ///< a box or a ball
+  std::optional<Vec3> point = {}, normal = {};     ///< of a plane: what is in front of it
+  std::optional<Vec3> axis = {}, axis_point = {};  ///< direction and place of an axis
+  std::optional<double> axis_radius = {};          ///< largest distance from it
   std::optional<int> component = {};
   std::optional<Vec3> facing = {};  ///< at the surface
+  AxisSide facing_axis = AxisSide::none;
   double facing_angle = 30;
   std::string bone;
   std::optional<std::vector<double>> ids = {};
   std::string mesh = {};  ///< a path, as body.mesh; of materials
 
+  /// Whether it is of the surface alone.
+  bool faces() const { return facing || facing_axis != AxisSide::none; }
   bool empty() const {
     return !region.low && !region.high && !region.center && !region.radius && !point && !normal &&
-           !component && !facing && bone.empty() && !ids && mesh.empty();
+           !axis && !component && !faces() && bone.empty() && !ids && mesh.empty();
   }
 };
 
