@@ -13,7 +13,7 @@ from pathlib import Path
 ARROWS = {
     "core": set(), "settings": {"core"}, "mesh": {"core"}, "repair": {"core", "mesh"}, "fill": {"core", "mesh"}, "rig": {"core"},
     "volume": {"core", "mesh", "fill", "rig"},
-    "metrics": {"core"}, "io": {"core", "rig"}, "render": {"core"}, "display": {"core"}, "vtk": {"core"},
+    "metrics": {"core", "rig", "material", "body"}, "io": {"core", "rig"}, "render": {"core"}, "display": {"core"}, "vtk": {"core"},
     "material": {"core"}, "body": {"core", "rig", "material"}, "world": {"core", "rig", "material", "body"},
     "analysis": {"core", "rig", "material", "body", "world"}, "kernel": set(),
     "lists": {"core", "rig", "material", "body", "world", "kernel"},

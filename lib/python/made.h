@@ -42,6 +42,6 @@ class type_caster<sinew::RestShape> : public made_caster<sinew::RestShape> {};
 template <>
 class type_caster<sinew::RunFiles> : public made_caster<sinew::RunFiles> {};
 template <>
-class type_caster<sinew::RunFrame> : public made_caster<sinew::RunFrame> {};
+class type_caster<sinew::FrameState> : public made_caster<sinew::FrameState> {};
 
 }  // namespace pybind11::detail

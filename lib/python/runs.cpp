@@ -48,9 +48,9 @@ py::dict units_of_metrics() {
   return units;
 }
 
-std::shared_ptr<RunFrame> frame_of(const RunFiles& run, std::size_t index) {
+std::shared_ptr<FrameState> frame_of(const RunFiles& run, std::size_t index) {
   const WithoutGil free;
-  return std::make_shared<RunFrame>(read_frame(run, index));
+  return std::make_shared<FrameState>(read_frame(run, index));
 }
 
 /// The arrays of particles that positions define, in any frame of a run.
@@ -58,7 +58,7 @@ class RunMeter {
  public:
   explicit RunMeter(std::shared_ptr<RunFiles> run) : run_(std::move(run)), rest_(rest_of(*run_)) {}
 
-  Column array(const RunFrame& frame, const std::string& name) const {
+  Column array(const FrameState& frame, const std::string& name) const {
     const RequestedArrays asked = requested_arrays(name);
     if (!asked.stepped.empty())
       throw bad_input(shown(name) + " is known while a run steps, and this one has not written it",
@@ -66,8 +66,7 @@ class RunMeter {
     if (asked.measured.size() != 1)
       throw bad_input(shown(name) + " names " + std::to_string(asked.measured.size()) + " arrays",
                       "name one, such as stress");
-    const FrameState state = measured_frame(RunFrame(frame));
-    std::vector<Column> found = particle_arrays(rest_, state, asked.measured);
+    std::vector<Column> found = particle_arrays(rest_, frame, asked.measured);
     return std::move(found.front());
   }
 
@@ -113,7 +112,7 @@ void simulate_into(const Settings& scene, const std::filesystem::path& folder, b
 }
 
 void bind_frame(py::module_& module) {
-  using F = RunFrame;
+  using F = FrameState;
   const auto view = [](auto F::*member) {
     return [member](const py::object& self) { return view_of(self.cast<F&>().*member, self); };
   };
@@ -121,7 +120,6 @@ void bind_frame(py::module_& module) {
       .def_readonly("time", &F::time)
       .def_property_readonly("positions", view(&F::positions))
       .def_property_readonly("velocities", view(&F::velocities))
-      .def_property_readonly("displacement", view(&F::displacement))
       .def_property_readonly("surface", view(&F::surface_points))
       .def_property_readonly("von_mises", view(&F::von_mises))
       .def_property_readonly("broken_bonds", view(&F::broken_bonds))
@@ -139,7 +137,7 @@ auto made_without_gil() {
 void bind_measures(py::module_& module) {
   py::class_<RunMeter>(module, "_RunMeter")
       .def(made_without_gil<RunMeter>())
-      .def("array", [](const RunMeter& meter, const RunFrame& frame, const std::string& name) {
+      .def("array", [](const RunMeter& meter, const FrameState& frame, const std::string& name) {
         Column found;
         {
           const WithoutGil free;

@@ -55,7 +55,7 @@ TEST(DrawnPulls, AreTheSpringsOfAParticleThatIsDisplaced) {
   const TempFolder folder;
   const RunFiles run = open_run(test::run_of_scene(folder, stretching));
   const DrawnPulls pulls(run);
-  const RunFrame rest = read_frame(run, 0);
+  const FrameState rest = read_frame(run, 0);
   const std::vector<DrawnPull> at_rest = pulls.at(rest);
   for (std::size_t k = 0; k < at_rest.size(); ++k) {
     const DrawnPull& before = at_rest[k];
@@ -63,7 +63,7 @@ TEST(DrawnPulls, AreTheSpringsOfAParticleThatIsDisplaced) {
     const Vec3 arm = before.position - before.reference;
     if (arm.norm() < 0.01 || std::abs(arm.z()) > 1e-9) continue;  // on the bone, or beyond its end
     const Vec3 outward = arm.normalized();
-    RunFrame frame = rest;
+    FrameState frame = rest;
     frame.positions[before.particle] += 0.002 * outward + 0.003 * Vec3::UnitZ();
     const DrawnPull pull = pulls.at(frame)[k];
     const Vec3 from = pull.position - pull.reference;

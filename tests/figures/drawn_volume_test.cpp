@@ -144,7 +144,7 @@ TEST(DrawnValues, MeasureStressAsTheRunWritesIt) {
   const TempFolder folder;
   const RunFolder at = run_of(folder, "stretch: 1.2", ", arrays: stress, double_precision: true");
   const RunFiles files = open_run(at);
-  const RunFrame frame = read_frame(files, 2);
+  const FrameState frame = read_frame(files, 2);
   const DrawnValues written(files, "stress");
   const TempFolder other;
   const RunFolder without = run_of(other, "stretch: 1.2", ", double_precision: true");

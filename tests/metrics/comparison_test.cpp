@@ -233,7 +233,9 @@ TEST(SideBySide, DrawsBothWithBallsOfTheirOwnSize) {
 TEST(SideBySide, AFieldThatOnlyOneHasIsNoneForTheOther) {
   const RestBody without = rest_body(box_input());
   RestInput input = box_input();
-  input.law.force = [](double d) { return 2 * r - d; };
+  static const ForceLaw law =
+      law_without_bonds([](const Material&, double d) { return 2 * r - d; });
+  obey(input, law);
   const Playback both =
       side_by_side(playback_of(without), playback_of(rest_body(input)), {"a: ", "b: "});
   const auto& stress = both.frames[0].values[4];

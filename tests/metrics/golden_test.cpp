@@ -39,15 +39,22 @@ RestInput lively_input() {
     input.weight.push_back(0.75 + 0.25 * chance(i));
   }
   input.bone[7] = -1;
-  input.mass = 0.004;
+  input.material.mass = 0.004;
   input.start.kinetic = 0.25;
   input.start.pair = 1.5;
-  input.law.force = [](double d) { return 40 * (2 * r - d) / r; };
-  input.law.bond = [](double d, double before) { return 70 * (before - d) / r; };
-  input.law.energy = [](double d) { return 20 * (2 * r - d) * (2 * r - d) / r; };
-  input.law.bond_energy = [](double d, double before) {
-    return 35 * (before - d) * (before - d) / r;
-  };
+  static const ForceLaw law = [] {
+    ForceLaw made = law_of_springs(
+        [](const Material&, double d) { return 40 * (2 * r - d) / r; },
+        [](const Material&, double d) { return 20 * (2 * r - d) * (2 * r - d) / r; });
+    made.bond_force = [](const Material&, const BondSpring& bond, double d) {
+      return 70 * (bond.length - d) / r;
+    };
+    made.bond_energy = [](const Material&, const BondSpring& bond, double d) {
+      return 35 * (bond.length - d) * (bond.length - d) / r;
+    };
+    return made;
+  }();
+  obey(input, law);
   keep_volumes(input, 2e4);
   return input;
 }

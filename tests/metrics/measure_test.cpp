@@ -196,7 +196,7 @@ TEST(Measure, TheLargestStressIsNotThatOfLoadedLayers) {
 
 TEST(Measure, ASpinningBodyHasTheMomentaOfARigidOne) {
   RestInput input = box_input();
-  input.mass = 0.25;
+  input.material.mass = 0.25;
   const RestBody body = rest_body(input);
   FrameState state = at_rest(body);
   const Vec3 drift(1, -2, 3), spin(0.5, 0.25, -1);
@@ -321,7 +321,7 @@ TEST(Measure, WhatCannotBeMeasuredIsNotANumber) {
   RestInput input = box_input();
   input.positions = {{0, 0, h}};  // no neighbors
   input.bone = {-1};
-  input.bones.clear();
+  input.skeleton.bones.clear();
   const RestBody body = rest_body(input);
   const FrameMetrics m = measure(body, at_rest(body));
   for (const double value :
@@ -377,10 +377,10 @@ TEST(RestBody, RefusesInputThatDoesNotFitTogether) {
   refuses([](RestInput& input) { input.bone.pop_back(); });
   refuses([](RestInput& input) { input.bone[0] = 2; });
   refuses([](RestInput& input) { input.bone[0] = -2; });
-  refuses([](RestInput& input) { input.bones[1].parent = 1; });
-  refuses([](RestInput& input) { input.bones[0].length = 0; });
-  refuses([](RestInput& input) { input.radius = 0; });
-  refuses([](RestInput& input) { input.interaction_range = -1; });
+  refuses([](RestInput& input) { input.skeleton.bones[1].parent = 1; });
+  refuses([](RestInput& input) { input.skeleton.bones[0].length = 0; });
+  refuses([](RestInput& input) { input.material.pair.r = 0; });
+  refuses([](RestInput& input) { input.material.pair.b = -1; });
   refuses([](RestInput& input) { input.surface.faces[0][1] = 8; });
   refuses([](RestInput& input) { input.surface.faces.clear(); });
   refuses([](RestInput& input) { input.positions[5].z() = INFINITY; });

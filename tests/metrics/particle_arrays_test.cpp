@@ -83,8 +83,10 @@ TEST(ParticleArrays, ARigidMotionReadFromFloat32FilesHasNextToNone) {
 /// FCC of linear springs k = 1: C11 = sqrt 2, C12 = C44 = 1 / sqrt 2 (k / d0).
 TEST(ParticleArrays, StressOfASmallStrainIsHookes) {
   RestInput input = box_input();
-  input.law.force = [](double d) { return 2 * r - d; };
-  input.interaction_range = 2.4 * r;
+  static const ForceLaw law =
+      law_without_bonds([](const Material&, double d) { return 2 * r - d; });
+  obey(input, law);
+  input.material.pair.b = 2.4 * r;
   const RestBody body = rest_body(input);
   const double e = 1e-6;
   const Mat3 strain = e * (Mat3() << 1, 0.4, -0.3, 0.4, -0.5, 0.7, -0.3, 0.7, 2).finished();
@@ -104,8 +106,8 @@ TEST(ParticleArrays, StressOfASmallStrainIsHookes) {
 
 TEST(ParticleArrays, BondsPullWhereNoOtherForceReaches) {
   RestInput input = box_input();
-  input.law.force = [](double) { return 0.0; };
-  input.law.bond = [](double d, double rest) { return rest - d; };
+  static const ForceLaw law = law_of_springs([](const Material&, double) { return 0.0; });
+  obey(input, law);
   const RestBody body = rest_body(input);
   const double stretch = 1.5;  // d = 3 r is beyond b
   const auto found = values_of(body, moved(body, affine(stretch * Mat3::Identity())), "stress");
@@ -122,8 +124,8 @@ TEST(ParticleArrays, BondsPullWhereNoOtherForceReaches) {
 /// Pulled to twice its length without getting thinner: the force on a face that keeps its area.
 TEST(ParticleArrays, StressIsForceOverThePresentArea) {
   RestInput input = box_input();
-  input.law.force = [](double) { return 0.0; };
-  input.law.bond = [](double d, double rest) { return rest - d; };
+  static const ForceLaw law = law_of_springs([](const Material&, double) { return 0.0; });
+  obey(input, law);
   const RestBody body = rest_body(input);
   const double d0 = 2 * r, squeeze = 0.8;
   const Mat3 F = Vec3(squeeze, squeeze, 1).asDiagonal();
@@ -144,7 +146,8 @@ TEST(ParticleArrays, StressIsForceOverThePresentArea) {
 
 TEST(ParticleArrays, WhatIsCrushedFlatHasNoStress) {
   RestInput input = box_input();
-  input.law.force = [](double) { return 1.0; };
+  static const ForceLaw law = law_without_bonds([](const Material&, double) { return 1.0; });
+  obey(input, law);
   const RestBody body = rest_body(input);
   const auto flat = moved(body, affine(Vec3(1, 1, 0.04).asDiagonal()));
   for (const double value : values_of(body, flat, "stress")) EXPECT_TRUE(std::isnan(value));
@@ -155,7 +158,8 @@ TEST(ParticleArrays, WhatIsCrushedFlatHasNoStress) {
 
 TEST(ParticleArrays, VolumesThatAreKeptPressBack) {
   RestInput input = box_input();
-  input.law.force = [](double) { return 0.0; };
+  static const ForceLaw law = law_without_bonds([](const Material&, double) { return 0.0; });
+  obey(input, law);
   keep_volumes(input, 1000);
   const RestBody body = rest_body(input);
   const double J = std::pow(0.9, 3);

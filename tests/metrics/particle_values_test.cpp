@@ -60,8 +60,10 @@ TEST(ParticleValues, AParticleThatLeavesItsCageIsNotAffine) {
 /// A linear spring of one unit around the distance at rest.
 RestInput sprung() {
   RestInput input = box_input();
-  input.law.force = [](double d) { return 2 * r - d; };
-  input.interaction_range = 2.4 * r;
+  static const ForceLaw law =
+      law_without_bonds([](const Material&, double d) { return 2 * r - d; });
+  obey(input, law);
+  input.material.pair.b = 2.4 * r;
   return input;
 }
 

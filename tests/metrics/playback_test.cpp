@@ -140,7 +140,7 @@ TEST(Playback, WritesTheForcesOfSupportsAndLoads) {
 
 TEST(Playback, WithoutBonesHasNoFieldOfThem) {
   RestInput input = box_input();
-  input.bones.clear();
+  input.skeleton.bones.clear();
   input.bone.assign(input.positions.size(), -1);
   const RestBody body = rest_body(input);
   for (const auto& field :
@@ -183,7 +183,7 @@ TEST(Playback, HasABoxAroundAllOfIt) {
 TEST(Playback, DrawsBonesAsLongAsTheyAre) {
   const RestBody body = rest_body(box_input());
   FrameState state = at_rest(body);
-  for (const MeasuredBone& bone : body.bones) state.bone_lengths.push_back(2 * bone.length);
+  for (const Bone& bone : body.bones) state.bone_lengths.push_back(2 * bone.length);
   Playback playback = plan_playback(body, 1);
   add_frame(playback, 0, body, state, particle_values(body, state));
   const std::vector<float>& ends = playback.frames[0].bones;  // head and tail of each

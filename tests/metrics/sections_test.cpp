@@ -33,7 +33,7 @@ Triangles prism() {
   return surface;
 }
 
-std::vector<MeasuredBone> two_bones() {
+std::vector<Bone> two_bones() {
   return {bone_at("lower", -1, 0, length), bone_at("upper", 0, length, 2 * length)};
 }
 
@@ -72,10 +72,10 @@ TEST(Sections, OfAPrismAreItsSquareAtEveryStepOfBothBones) {
 TEST(Sections, AreTheSameFarAway) {
   for (const double far : {1e3, 1e5, 1e7}) {
     Triangles surface = prism();
-    std::vector<MeasuredBone> bones = two_bones();
+    std::vector<Bone> bones = two_bones();
     const Vec3 at(std::round(far), 0, 0);
     for (Vec3& point : surface.points) point += at;
-    for (MeasuredBone& bone : bones) {
+    for (Bone& bone : bones) {
       bone.rest.origin += at;
       bone.rest.rotation = turned(1e-15, {1, 2, 3}) * bone.rest.rotation;  // rounding
     }
@@ -164,7 +164,7 @@ RestInput fine_box() {
   input.positions = fcc_box(width, planes);
   const double side = width * h / 2, middle = planes * h / 2;
   input.surface = box_surface({-side, -side, 0}, {side, side, 2 * middle});
-  input.bones = {bone_at("lower", -1, 0, middle), bone_at("upper", 0, middle, 2 * middle)};
+  input.skeleton.bones = {bone_at("lower", -1, 0, middle), bone_at("upper", 0, middle, 2 * middle)};
   input.bone.clear();
   for (const Vec3& point : input.positions) input.bone.push_back(point.z() > middle);
   return input;

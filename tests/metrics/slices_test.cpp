@@ -20,7 +20,7 @@ TEST(Slices, AreTheHalfPlanesOfALatticeAlongTheBones) {
 TEST(Slices, RunOnFromBoneToBoneWithinAThousandthOfALine) {
   for (const double aside : {0.9e-3, 1.1e-3}) {
     RestInput input = box_input();
-    input.bones[1].rest.origin.x() += aside * input.bones[1].length;
+    input.skeleton.bones[1].rest.origin.x() += aside * input.skeleton.bones[1].length;
     const std::size_t joined = rest_body(input).slices.neighbors.size();
     EXPECT_EQ(joined, static_cast<std::size_t>(aside < 1e-3 ? along - 1 : along - 2));
   }
@@ -68,7 +68,7 @@ TEST(Slices, BendingIsNoTwist) {
 
 TEST(Slices, EndAtABendOfTheSkeleton) {
   RestInput input = box_input();
-  input.bones[1].rest.rotation = turned(30, Vec3::UnitX()) * upright();
+  input.skeleton.bones[1].rest.rotation = turned(30, Vec3::UnitX()) * upright();
   const RestBody body = rest_body(input);
   const auto state = moved(body, twisted([](double z) { return z > half_length ? 90 : 0; }));
   EXPECT_LT(measure(body, state).twist_jump_max, 89);

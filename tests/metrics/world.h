@@ -7,6 +7,7 @@
 
 #include <sinew/body/volume_weights.h>
 #include <sinew/core/particles.h>
+#include <sinew/material/laws.h>
 #include <sinew/metrics/frame_metrics.h>
 
 namespace sinew::test {
@@ -60,7 +61,7 @@ inline Triangles sheet(int n, double edge = 1) {
 /// Columns: z (the axis), x, y.
 inline Mat3 upright() { return (Mat3() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished(); }
 
-inline MeasuredBone bone_at(const std::string& name, int parent, double from, double to) {
+inline Bone bone_at(const std::string& name, int parent, double from, double to) {
   return {name, parent, to - from, {Vec3(0, 0, from), upright()}};
 }
 
@@ -69,11 +70,13 @@ inline RestInput box_input() {
   input.positions = fcc_box();
   const double side = across * h / 2;
   input.surface = box_surface({-side, -side, 0}, {side, side, 2 * half_length});
-  input.bones = {bone_at("lower", -1, 0, half_length),
-                 bone_at("upper", 0, half_length, 2 * half_length)};
+  input.skeleton.bones = {bone_at("lower", -1, 0, half_length),
+                          bone_at("upper", 0, half_length, 2 * half_length)};
   for (const Vec3& point : input.positions) input.bone.push_back(point.z() > half_length);
-  input.radius = r;
-  input.interaction_range = b;
+  input.material.pair.r = r;
+  input.material.pair.b = b;
+  input.material.mass = not_measured;
+  input.forces.known = false;
   return input;
 }
 
@@ -81,17 +84,49 @@ inline RestInput box_input() {
 inline RestInput moved_to(const Vec3& shift, RestInput input) {
   for (Vec3& point : input.positions) point += shift;
   for (Vec3& point : input.surface.points) point += shift;
-  for (MeasuredBone& bone : input.bones) bone.rest.origin += shift;
+  for (Bone& bone : input.skeleton.bones) bone.rest.origin += shift;
   return input;
+}
+
+using ForceAt = double (*)(const Material&, double);
+
+/// `force` between all particles.
+inline ForceLaw law_without_bonds(ForceAt force) {
+  ForceLaw law{};
+  law.has_bonds = true;
+  law.force = force;
+  return law;
+}
+
+/// Springs of the material's stiffness between neighbors at rest, and `force` between others.
+inline ForceLaw law_of_springs(ForceAt force, ForceAt energy = nullptr) {
+  ForceLaw law = law_without_bonds(force);
+  law.has_memory = true;
+  law.energy = energy;
+  law.bond_force = [](const Material&, const BondSpring& bond, double d) {
+    return bond.stiffness * (bond.length - d);
+  };
+  law.bond_energy = [](const Material&, const BondSpring& bond, double d) {
+    return bond.stiffness * (bond.length - d) * (bond.length - d) / 2;
+  };
+  return law;
+}
+
+/// Its particles act on each other by this law, which must outlive all that is made of it.
+inline void obey(RestInput& input, const ForceLaw& law) {
+  input.material.law = &law;
+  input.material.bond.stiffness = 1;
+  input.forces.known = true;
+  input.forces.factors = std::make_shared<const BondFactors>();
 }
 
 /// Particles keep their volumes, with their weights as simulations find them (Pa).
 inline void keep_volumes(RestInput& input, double stiffness) {
-  input.law.volume_stiffness = stiffness;
-  input.law.local = [rest = input.positions, r = input.radius] {
-    return LocalStiffness{
-        {}, own_volume_weights(rest, neighbors_within(rest, rest_neighbor_range(r)), r)};
-  };
+  BondFactors factors;
+  factors.volume_weight = own_volume_weights(
+      input.positions, neighbors_within(input.positions, rest_neighbor_range(r)), r);
+  input.material.volume_stiffness = stiffness;
+  input.forces.factors = std::make_shared<const BondFactors>(std::move(factors));
 }
 
 inline Points mapped(Points points, const Map& map) {
@@ -105,7 +140,7 @@ inline FrameState moved(const RestBody& body, const Map& map) {
   state.positions = mapped(body.shape.points, map);
   state.velocities.assign(body.particles(), Vec3::Zero());
   state.surface_points = mapped(body.surface.points, map);
-  for (const MeasuredBone& bone : body.bones) state.bones.push_back(bone.rest);
+  for (const Bone& bone : body.bones) state.bones.push_back(bone.rest);
   return state;
 }
 

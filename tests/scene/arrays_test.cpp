@@ -41,7 +41,7 @@ Settings scene_of_arrays() {
 
 std::uint64_t last_hash(const RunFolder& folder) {
   const RunFiles run = open_run(folder);
-  const RunFrame last = read_frame(run, run.frames() - 1);
+  const FrameState last = read_frame(run, run.frames() - 1);
   return state_hash(particles_at(last.positions, 1, 1));
 }
 

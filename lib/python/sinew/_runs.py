@@ -76,7 +76,7 @@ class Frame:
     @property
     def displacement(self):
         """Its size for each particle (n,), m."""
-        return self._frame.displacement
+        return numpy.linalg.norm(self.positions - self._run.rest, axis=1)
 
     @property
     def surface(self):

@@ -35,7 +35,7 @@ Vec3 axis_toward(const Vec3& viewer) {
 
 }  // namespace
 
-void JointTurns::add(const RunFrame& frame) {
+void JointTurns::add(const FrameState& frame) {
   const std::vector<Bone>& bones = run_->skeleton.bones;
   for (std::size_t b = 0; b < frame.bones.size(); ++b) {
     if (bones[b].parent < 0) continue;
@@ -75,7 +75,7 @@ DrawnPlane::DrawnPlane(const RunFiles& run, const JointTurns& turns, const Mat3&
   if (bone_) bone_rest_ = run.skeleton.bones[*bone_].rest;
 }
 
-CutPlane DrawnPlane::at(const RunFrame& frame) const {
+CutPlane DrawnPlane::at(const FrameState& frame) const {
   if (!bone_ || frame.bones.empty()) return rest_;
   const RigidFrame& now = frame.bones[*bone_];
   return {carried(rest_.point, bone_rest_, now),

@@ -26,7 +26,7 @@ class JointTurns {
  public:
   explicit JointTurns(const RunFiles& run) : run_(&run), turns_(run.skeleton.size()) {}
 
-  void add(const RunFrame& frame);
+  void add(const FrameState& frame);
 
   struct Turn {
     double angle = 0;           ///< rad
@@ -48,7 +48,7 @@ class DrawnPlane {
   /// that, else it faces the viewer. Without such a joint it goes through the body's middle.
   DrawnPlane(const RunFiles& run, const JointTurns& turns, const Mat3& view);
 
-  CutPlane at(const RunFrame& frame) const;
+  CutPlane at(const FrameState& frame) const;
 
  private:
   CutPlane rest_;

@@ -132,19 +132,18 @@ DrawnValues::DrawnValues(const RunFiles& run, const std::string& name) : run_(&r
   if (array->unit == "Pa") check_forces(*rest_, name);
 }
 
-Column DrawnValues::column(std::size_t index, const RunFrame& frame) const {
+Column DrawnValues::column(std::size_t index, const FrameState& frame) const {
   if (rest_) {
-    const FrameState state = measured_frame(frame);
     if (const MeasuredArray* array = find_measured(name_))
-      return {name_, 1, particle_values(*rest_, state).*array->values};
+      return {name_, 1, particle_values(*rest_, frame).*array->values};
     const std::string_view name = name_;
-    return particle_arrays(*rest_, state, {&name, 1}).front();
+    return particle_arrays(*rest_, frame, {&name, 1}).front();
   }
-  if (name_ == "displacement") return {name_, 1, frame.displacement};
+  if (name_ == "displacement") return {name_, 1, displacements(*run_, frame)};
   return column_of(*run_, run_->particle_rows[index], name_, run_->body.particles.size());
 }
 
-std::vector<double> DrawnValues::at(std::size_t index, const RunFrame& frame) const {
+std::vector<double> DrawnValues::at(std::size_t index, const FrameState& frame) const {
   return sizes_of(column(index, frame));
 }
 
@@ -199,7 +198,7 @@ Column DrawnSkin::carried(const Column& of_particles) const {
   return {of_particles.name, of_particles.components, std::move(found)};
 }
 
-std::vector<double> DrawnSkin::at(std::size_t index, const RunFrame& frame) const {
+std::vector<double> DrawnSkin::at(std::size_t index, const FrameState& frame) const {
   if (written_.empty()) return sizes_of(carried(values_.column(index, frame)));
   return sizes_of(
       column_of(*run_, run_->surface_rows[index], written_, run_->surface.points.size()));

@@ -31,9 +31,9 @@ class DrawnValues {
 
   /// Values of the particles in the written order; vectors as such. `frame` is the run's frame
   /// `index`. Throws bad input for an array that the frame has not, naming those that it has.
-  Column column(std::size_t index, const RunFrame& frame) const;
+  Column column(std::size_t index, const FrameState& frame) const;
   /// One per particle: the magnitudes of vectors and tensors.
-  std::vector<double> at(std::size_t index, const RunFrame& frame) const;
+  std::vector<double> at(std::size_t index, const FrameState& frame) const;
 
   /// The values at the ends of the color scale: the 1st and 99th percentile, so that a few escaped
   /// particles do not determine it; from zero where that is near.
@@ -55,7 +55,7 @@ class DrawnSkin {
  public:
   DrawnSkin(const RunFiles& run, const DrawnValues& values);
 
-  std::vector<double> at(std::size_t index, const RunFrame& frame) const;
+  std::vector<double> at(std::size_t index, const FrameState& frame) const;
 
  private:
   Column carried(const Column& of_particles) const;

@@ -39,7 +39,7 @@ std::vector<Cell> whole_cells(const Dataset& data) {
 
 }  // namespace
 
-Dataset DrawnVolume::cells(std::size_t index, const RunFrame& frame, Column column) const {
+Dataset DrawnVolume::cells(std::size_t index, const FrameState& frame, Column column) const {
   Dataset particles;
   particles.points = frame.positions;
   particles.point_columns = {std::move(column)};
@@ -48,7 +48,7 @@ Dataset DrawnVolume::cells(std::size_t index, const RunFrame& frame, Column colu
   return volume_.at(index, particles);
 }
 
-SnapshotCut DrawnVolume::cut(std::size_t index, const RunFrame& frame, std::vector<double> values,
+SnapshotCut DrawnVolume::cut(std::size_t index, const FrameState& frame, std::vector<double> values,
                              const CutPlane& asked) const {
   // Many particles may lie exactly on it, as layers do at rest.
   const double aside = 1e-3 * run_->body.particles.radius;
@@ -66,7 +66,7 @@ SnapshotCut DrawnVolume::cut(std::size_t index, const RunFrame& frame, std::vect
   return cut;
 }
 
-std::vector<SnapshotCurve> DrawnVolume::lines(std::size_t index, const RunFrame& frame,
+std::vector<SnapshotCurve> DrawnVolume::lines(std::size_t index, const FrameState& frame,
                                               const Column& tensor, double min_value) const {
   const Dataset data = cells(index, frame, tensor);
   const double size = bounds(positions_of(run_->body.particles)).diagonal().norm();

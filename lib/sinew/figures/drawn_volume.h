@@ -22,16 +22,16 @@ class DrawnVolume {
 
   /// The cells that the plane crosses in the run's frame `index`, without torn ones. `values`: one
   /// per particle.
-  SnapshotCut cut(std::size_t index, const RunFrame& frame, std::vector<double> values,
+  SnapshotCut cut(std::size_t index, const FrameState& frame, std::vector<double> values,
                   const CutPlane& plane) const;
 
   /// Lines along the largest principal value of a symmetric tensor of the particles, where it
   /// exceeds `min_value`.
-  std::vector<SnapshotCurve> lines(std::size_t index, const RunFrame& frame, const Column& tensor,
+  std::vector<SnapshotCurve> lines(std::size_t index, const FrameState& frame, const Column& tensor,
                                    double min_value) const;
 
  private:
-  Dataset cells(std::size_t index, const RunFrame& frame, Column column) const;
+  Dataset cells(std::size_t index, const FrameState& frame, Column column) const;
 
   const RunFiles* run_;
   RunVolume volume_;

@@ -16,14 +16,14 @@
 
 namespace sinew {
 
-Snapshot snapshot_of(const RunFiles& run, RunFrame frame, double angle) {
+Snapshot snapshot_of(const RunFiles& run, FrameState frame, double angle) {
   Snapshot snapshot;
+  snapshot.values = displacements(run, frame);
   snapshot.caption = three_digits(frame.time) + " s";
   if (!frame.bones.empty())
     snapshot.caption += ",  " + std::to_string(std::lround(degrees(angle))) + "\u00b0";
   snapshot.particles = std::move(frame.positions);
   snapshot.radius = run.body.particles.radius;
-  snapshot.values = std::move(frame.displacement);
   snapshot.surface = {std::move(frame.surface_points), run.surface.faces};
   for (std::size_t b = 0; b < frame.bones.size(); ++b) {
     const RigidFrame& bone = frame.bones[b];
@@ -48,7 +48,7 @@ constexpr double arrow_spacing = 0.03;   // of the body's longest side: closer o
 constexpr double weakest_line = 0.1;     // of the largest stress: below it lines of stress end
 constexpr double beside_plane = 1.1;     // radii: one layer of particles
 
-double largest_turn(const RunFiles& run, const RunFrame& frame) {
+double largest_turn(const RunFiles& run, const FrameState& frame) {
   double most = 0;
   for (std::size_t b = 0; b < frame.bones.size(); ++b) {
     const Mat3 turn = frame.bones[b].rotation * run.skeleton.bones[b].rest.rotation.transpose();
@@ -172,7 +172,7 @@ void DrawnRun::Extent::extend(const Mat3& view, const Snapshot& snapshot) {
   around.extend(snapshot);
 }
 
-DrawnValues::Range DrawnRun::range_in(std::size_t index, const RunFrame& frame,
+DrawnValues::Range DrawnRun::range_in(std::size_t index, const FrameState& frame,
                                       const DrawnView& drawn) const {
   if (drawn.pulls) {
     double strongest = 0;
@@ -214,7 +214,7 @@ void DrawnRun::check_plane(const Box& body) const {
 
 /// Turns the view by as much as the figure is turned from -y in the first frame.
 void DrawnRun::face_front() {
-  const auto front = front_in(run_);
+  const auto front = front_in(run_, read_frame(run_, 0));
   if (!front) return;
   const double angle = std::atan2(front->x(), -front->y());
   options_.view = options_.view * Eigen::AngleAxisd(-angle, Vec3::UnitZ()).toRotationMatrix();
@@ -237,10 +237,10 @@ void DrawnRun::read_overview() {
   JointTurns turns(run_);
   double farthest = 0;
   for (std::size_t i = 0; i < run_.frames(); ++i) {
-    RunFrame frame = frames.next();
+    FrameState frame = frames.next();
     overview_.angle.push_back(largest_turn(run_, frame));
     turns.add(frame);
-    overview_.shift.push_back(root_mean_square(frame.displacement));
+    overview_.shift.push_back(root_mean_square(displacements(run_, frame)));
     for (DrawnView& drawn : views_) widen(drawn.range, range_in(i, frame, drawn), i == 0);
     for (std::size_t k = 0; k < traced.size(); ++k)
       overview_.paths[k].push_back(frame.positions[traced[k]]);
@@ -441,7 +441,7 @@ void DrawnRun::add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView&
 }
 
 Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
-  RunFrame frame = read_frame(run_, index);
+  FrameState frame = read_frame(run_, index);
   const View view = drawn.preset.view;
   const CutPlane plane = overview_.plane->at(frame);
   const bool shows_particles = view != View::curves && (view != View::surface || !drawn.skin);

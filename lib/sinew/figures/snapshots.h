@@ -25,7 +25,7 @@
 namespace sinew {
 
 /// `angle` of the bones, for the caption, rad. Bones have their lengths in the frame.
-Snapshot snapshot_of(const RunFiles& run, RunFrame frame, double angle);
+Snapshot snapshot_of(const RunFiles& run, FrameState frame, double angle);
 
 // A run as a sequence of snapshots, and the quantities over all frames that the first picture
 // needs.
@@ -111,7 +111,7 @@ class DrawnRun {
   void read_overview();
   void add_surroundings(Extent extent);
   void check_plane(const Box& body) const;
-  DrawnValues::Range range_in(std::size_t index, const RunFrame& frame,
+  DrawnValues::Range range_in(std::size_t index, const FrameState& frame,
                               const DrawnView& drawn) const;
   bool is_selected(std::size_t particle) const;
   void show_selected(Snapshot& snapshot) const;

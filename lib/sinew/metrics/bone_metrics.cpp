@@ -65,7 +65,7 @@ Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) 
   const auto across = [&](const Vec3& p) -> Vec3 { return p - foot - axis.dot(p - foot) * axis; };
   const Vec3 wanted = across(target), found = across(x);
   Miss miss{(x - foot).norm() - bound.distance, (x - target).norm(), not_measured};
-  if (wanted.norm() > near_axis * rest.radius && found.norm() > near_axis * rest.radius)
+  if (wanted.norm() > near_axis * rest.radius() && found.norm() > near_axis * rest.radius())
     miss.twist = std::atan2(axis.dot(wanted.cross(found)), wanted.dot(found));
   return miss;
 }
@@ -162,10 +162,10 @@ std::vector<BoneMetrics> measure_bones(const RestBody& rest, const FrameState& s
   std::vector<BoneMetrics> out;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     out.push_back(summed(bones[b], state.time, b));
-    add_volumes(out.back(), bones[b], rest.radius);
+    add_volumes(out.back(), bones[b], rest.radius());
     out.back().turn_error =
         turn_error(bones[b].limb, state.bones[b].rotation * rest.bones[b].rest.rotation.transpose(),
-                   rest.radius);
+                   rest.radius());
   }
   return out;
 }

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <sinew/core/simulation_state.h>
@@ -13,16 +12,6 @@
 #include <sinew/metrics/statistics.h>
 
 namespace sinew {
-
-/// A bone of the skeleton at rest.
-struct MeasuredBone {
-  std::string name;
-  int parent = -1;    ///< index of an earlier bone, -1 for a root
-  double length = 0;  ///< m, > 0
-  RigidFrame rest;    ///< origin: the head, m; first column: the axis toward the tail
-
-  Vec3 axis() const { return rest.rotation.col(0); }
-};
 
 /// The state of a run at one time. Particles are in the written order.
 struct FrameState {

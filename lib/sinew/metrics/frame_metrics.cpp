@@ -47,7 +47,7 @@ void check(const RestBody& rest, const FrameState& state) {
 void add_pose(FrameMetrics& out, const RestBody& rest, const FrameState& state) {
   if (rest.bones.empty()) return;
   std::vector<RigidFrame> frames;
-  for (const MeasuredBone& bone : rest.bones) frames.push_back(bone.rest);
+  for (const Bone& bone : rest.bones) frames.push_back(bone.rest);
   const PoseChange change = pose_change(frames, state.bones);
   out.bone_angle = degrees(change.turn);
   out.bone_shift = change.shift;
@@ -271,7 +271,7 @@ MeasuredFrame measure_frame(const RestBody& rest, const FrameState& state) {
   add_neighbors(out, rest, frame.particles);
   add_bonds(out, rest, state);
   add_groups(out, state);
-  add_gradients(out, frame.particles, rest.radius);
+  add_gradients(out, frame.particles, rest.radius());
   add_strain(out, frame.particles);
   add_largest_stress(out, rest, state, frame.particles.von_mises);
   add_surface(out, rest, state, surface);

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include <sinew/body/body.h>
 #include <sinew/core/deformation.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/material/laws.h>
 
 namespace sinew {
 
@@ -25,11 +28,39 @@ struct BondState {
   double force;   ///< N, positive repels; 0 once broken
 };
 
-double force_of(const ForcesOfPairs& law, bool nearest, double d, double rest) {
-  if (!nearest) return law.second(d, rest);
-  if (law.bond) return law.bond(d, rest);
-  return law.force ? law.force(d) : not_measured;
-}
+/// The forces between a body's particles.
+class PairForces {
+ public:
+  explicit PairForces(const RestBody& rest)
+      : law_(law_of(rest.material)),
+        material_(rest.material),
+        second_(law_.has_memory ? rest.material.bond.second : 0) {}
+
+  /// Whether neighbors at rest act otherwise than others do.
+  bool has_bonds() const { return law_.has_memory; }
+  /// Neighbors at rest farther apart than this hold no longer, m.
+  double reach() const {
+    return law_.has_bonds ? std::numeric_limits<double>::infinity() : material_.pair.b;
+  }
+  double force(double d) const { return law_.force(material_, d); }
+  double energy(double d) const { return law_.energy(material_, d); }
+  double bond_force(bool nearest, double d, double rest) const {
+    return law_.has_memory ? law_.bond_force(material_, spring(nearest, rest), d) : force(d);
+  }
+  double bond_energy(bool nearest, double d, double rest) const {
+    return law_.bond_energy(material_, spring(nearest, rest), d);
+  }
+  double volume_stiffness() const { return law_.has_bonds ? material_.volume_stiffness : 0; }
+
+ private:
+  BondSpring spring(bool nearest, double rest) const {
+    return {rest, nearest ? material_.bond.stiffness : second_};
+  }
+
+  const ForceLaw& law_;
+  const Material& material_;
+  double second_;
+};
 
 /// Calls visit(BondState) for the bonds of particle i: to nearest neighbors, then to second ones.
 template <class Visit>
@@ -37,6 +68,7 @@ void for_each_bond(const RestBody& rest, const FrameState& state, std::size_t i,
                    const Visit& visit) {
   const Points& now = state.positions;
   const BondStiffness& stiffness = rest.stiffness();
+  const PairForces pair(rest);
   const std::vector<double>& lengths = state.bond_rest.empty() ? stiffness.length : state.bond_rest;
   const auto among = [&](const NeighborLists& lists, std::size_t before, bool nearest) {
     if (lists.size() == 0) return;
@@ -47,14 +79,18 @@ void for_each_bond(const RestBody& rest, const FrameState& state, std::size_t i,
       bond.length = bond.apart.norm();
       bond.rest = lengths.empty() ? (rest.shape.points[i] - rest.shape.points[j]).norm()
                                   : lengths[before + e];
-      bond.whole = bond.rest > 0 && bond.length < rest.law.reach;
-      if (bond.whole)
-        bond.force = bond.factor * force_of(rest.law, nearest, bond.length, bond.rest);
+      bond.whole = bond.rest > 0 && bond.length < pair.reach();
+      if (bond.whole) bond.force = bond.factor * pair.bond_force(nearest, bond.length, bond.rest);
       visit(bond);
     }
   };
   among(rest.shape.neighbors, 0, true);
   among(rest.second, rest.shape.neighbors.neighbor.size(), false);
+}
+
+/// Whether the body's law and the state determine the forces of bonds.
+bool knows_bonds(const RestBody& rest, const FrameState& state) {
+  return rest.forces.known && !(bonds_change(rest.material) && state.bond_rest.empty());
 }
 
 /// -f (x) r of one pair, N m.
@@ -74,8 +110,8 @@ struct KeptVolume {
 KeptVolume kept_volume(const RestBody& rest, const FrameState& state, std::size_t i, bool severed) {
   const std::vector<double>& weight = rest.stiffness().volume_weight;
   if (weight.empty() || weight[i] == 0 || severed) return {};
-  const auto& local = rest.law.volume_stiffness_of;
-  return {(local.empty() ? rest.law.volume_stiffness : local[i]) * weight[i],
+  const auto& local = rest.forces.volume_stiffness;
+  return {(local.empty() ? PairForces(rest).volume_stiffness() : local[i]) * weight[i],
           deformation_gradient(rest.shape, state.positions, i).determinant()};
 }
 
@@ -85,8 +121,8 @@ template <class OnBond, class OnOther>
 bool for_each_pair(const RestBody& rest, const FrameState& state,
                    std::span<const Neighbor> neighbors, std::size_t i, const OnBond& on_bond,
                    const OnOther& on_other) {
-  const double range = rest.interaction_range;
-  const bool has_bonds = static_cast<bool>(rest.law.bond);
+  const double range = rest.interaction_range();
+  const bool has_bonds = PairForces(rest).has_bonds();
   const auto nearest = rest.shape.neighbors.of(i);
   const std::uint32_t first = rest.shape.neighbors.first[i];
   const auto bonded = [&](std::uint32_t j) {
@@ -95,8 +131,10 @@ bool for_each_pair(const RestBody& rest, const FrameState& state,
     return state.bond_rest.empty() ||
            state.bond_rest[first + static_cast<std::size_t>(at - nearest.begin())] > 0;
   };
+  const double near = rest.forces.pass.any() ? near_at_rest(rest.material) : 0;
   const auto passes = [&](std::uint32_t j) {
-    return rest.law.pass && rest.law.pass(static_cast<std::uint32_t>(i), j);
+    return rest.forces.pass.between(rest.bone_of[i], rest.bone_of[j]) &&
+           (rest.shape.points[i] - rest.shape.points[j]).norm() >= near;
   };
   bool severed = false;
   if (has_bonds)
@@ -120,29 +158,28 @@ double volume_share(const RestBody& rest, std::size_t i) {
 /// Calls found(i, its neighbors within b) for each particle. In parallel.
 template <class Found>
 void for_each_surrounded(const RestBody& rest, const FrameState& state, const Found& found) {
-  const CellGrid grid(state.positions, rest.interaction_range);
+  const CellGrid grid(state.positions, rest.interaction_range());
   parallel_for(rest.particles(), particles_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
-      found(i, find_neighbors(state.positions, grid, rest.interaction_range, i, neighbors));
+      found(i, find_neighbors(state.positions, grid, rest.interaction_range(), i, neighbors));
     }
   });
 }
 
 double energy_density(const RestBody& rest, const FrameState& state,
                       std::span<const Neighbor> neighbors, std::size_t i) {
-  const ForcesOfPairs& law = rest.law;
+  const PairForces pair(rest);
   double sum = 0;
   const bool severed = for_each_pair(
       rest, state, neighbors, i,
       [&](const BondState& bond) {
-        const auto& energy = bond.nearest ? law.bond_energy : law.second_energy;
-        sum += bond.factor * energy(bond.length, bond.rest) / 2;
+        sum += bond.factor * pair.bond_energy(bond.nearest, bond.length, bond.rest) / 2;
       },
-      [&](const Neighbor& other) { sum += law.energy(std::sqrt(other.squared)) / 2; });
+      [&](const Neighbor& other) { sum += pair.energy(std::sqrt(other.squared)) / 2; });
   const double of_volume = kept_volume(rest, state, i, severed).energy_density();
   const double share = volume_share(rest, i);
-  return share > 0 ? (sum / volume_per_particle(rest.radius) + of_volume) / share : not_measured;
+  return share > 0 ? (sum / volume_per_particle(rest.radius()) + of_volume) / share : not_measured;
 }
 
 }  // namespace
@@ -160,24 +197,23 @@ std::span<const Neighbor> find_neighbors(const Points& now, const CellGrid& grid
 }
 
 bool knows_forces(const RestBody& rest, const FrameState& state) {
-  const ForcesOfPairs& law = rest.law;
-  return law.force && !(law.bonds_change && state.bond_rest.empty()) &&
-         !(law.has_muscles && state.muscle_stress.empty());
+  return knows_bonds(rest, state) && !(rest.forces.has_muscles && state.muscle_stress.empty());
 }
 
 Mat3 kirchhoff_stress(const RestBody& rest, const FrameState& state,
                       std::span<const Neighbor> neighbors, std::size_t i) {
+  const PairForces pair(rest);
   Mat3 sum = Mat3::Zero();
   const bool severed = for_each_pair(
       rest, state, neighbors, i,
       [&](const BondState& bond) { sum += virial(bond.force, bond.apart, bond.length); },
       [&](const Neighbor& other) {
         const double d = std::sqrt(other.squared);
-        sum += virial(rest.law.force(d), state.positions[i] - state.positions[other.index], d);
+        sum += virial(pair.force(d), state.positions[i] - state.positions[other.index], d);
       });
   const double share = volume_share(rest, i);
   if (!(share > 0)) return Mat3::Constant(not_measured);
-  const Mat3 passive = sum / (2 * volume_per_particle(rest.radius));
+  const Mat3 passive = sum / (2 * volume_per_particle(rest.radius()));
   const Mat3 stress = (passive + kept_volume(rest, state, i, severed).stress()) / share;
   return state.muscle_stress.empty() ? stress : Mat3(stress + state.muscle_stress[i]);
 }
@@ -193,7 +229,7 @@ std::vector<Mat3> kirchhoff_stresses(const RestBody& rest, const FrameState& sta
 
 std::vector<double> energy_densities(const RestBody& rest, const FrameState& state) {
   std::vector<double> found(state.positions.size(), not_measured);
-  if (!knows_forces(rest, state) || !rest.law.energy) return found;
+  if (!knows_forces(rest, state) || rest.material.bond.branch_count() > 0) return found;
   for_each_surrounded(rest, state, [&](std::size_t i, std::span<const Neighbor> neighbors) {
     found[i] = energy_density(rest, state, neighbors, i);
   });
@@ -211,7 +247,7 @@ double von_mises(const Mat3& stress) {
 
 BondValues bond_values(const RestBody& rest, const FrameState& state) {
   BondValues values;
-  const bool known = rest.law.force && !(rest.law.bonds_change && state.bond_rest.empty());
+  const bool known = knows_bonds(rest, state);
   for (std::uint32_t i = 0; i < rest.particles(); ++i)
     for_each_bond(rest, state, i, [&](const BondState& bond) {
       if (bond.neighbor < i) return;

@@ -78,7 +78,7 @@ Within count_within(std::size_t count, double near, double far, const Squared& s
 
 void count_neighbors(ParticleValues& out, const RestBody& rest, const Points& now,
                      std::span<const Neighbor> neighbors, std::size_t i) {
-  const double near = rest_neighbor_range(rest.radius), far = rest.interaction_range;
+  const double near = rest_neighbor_range(rest.radius()), far = rest.interaction_range();
   const auto before = rest.shape.neighbors.of(i);
   const Within all = count_within(neighbors.size(), near, far,
                                   [&](std::size_t k) { return neighbors[k].squared; });
@@ -94,7 +94,7 @@ void count_neighbors(ParticleValues& out, const RestBody& rest, const Points& no
 
 void add_surroundings(ParticleValues& out, const RestBody& rest, const FrameState& state) {
   const Points& now = state.positions;
-  const double range = std::max(rest_neighbor_range(rest.radius), rest.interaction_range);
+  const double range = std::max(rest_neighbor_range(rest.radius()), rest.interaction_range());
   const bool finds_stress = !out.von_mises.empty() && state.von_mises.empty();
   const CellGrid grid(now, range);
   parallel_for(now.size(), piece, [&](std::size_t begin, std::size_t end) {
@@ -283,7 +283,7 @@ bool has_strain(const RestBody& rest) {
 FrameState state_at_rest(const RestBody& rest) {
   FrameState state;
   state.positions = rest.shape.points;
-  for (const MeasuredBone& bone : rest.bones) state.bones.push_back(bone.rest);
+  for (const Bone& bone : rest.bones) state.bones.push_back(bone.rest);
   return state;
 }
 

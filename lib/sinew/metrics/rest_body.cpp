@@ -8,6 +8,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/parallel.h>
 #include <sinew/core/particles.h>
+#include <sinew/material/laws.h>
 
 namespace sinew {
 namespace {
@@ -19,9 +20,9 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw bad_input(what, cure);
 }
 
-void check_bones(const std::vector<MeasuredBone>& bones) {
+void check_bones(const std::vector<Bone>& bones) {
   for (std::size_t i = 0; i < bones.size(); ++i) {
-    const MeasuredBone& bone = bones[i];
+    const Bone& bone = bones[i];
     require(bone.parent >= -1 && bone.parent < static_cast<int>(i),
             "the parent of bone '" + bone.name + "' is not an earlier bone");
     require(std::isfinite(bone.length) && bone.length > 0,
@@ -43,8 +44,9 @@ void check_surface(const Triangles& surface) {
 void check(const RestInput& input) {
   require(!input.positions.empty(), "the body has no particles");
   require(all_finite(input.positions), "the body has a particle at a position that is not finite");
-  require(std::isfinite(input.radius) && input.radius > 0, "the particle radius is not above 0");
-  require(std::isfinite(input.interaction_range) && input.interaction_range > 0,
+  require(std::isfinite(input.material.pair.r) && input.material.pair.r > 0,
+          "the particle radius is not above 0");
+  require(std::isfinite(input.material.pair.b) && input.material.pair.b > 0,
           "the interaction range is not above 0");
   require(input.bone.size() == input.positions.size(),
           "there are " + std::to_string(input.positions.size()) + " particles but bones for " +
@@ -52,26 +54,27 @@ void check(const RestInput& input) {
   require(input.weight.empty() || input.weight.size() == input.positions.size(),
           "there are " + std::to_string(input.positions.size()) + " particles but weights for " +
               std::to_string(input.weight.size()));
-  check_bones(input.bones);
+  check_bones(input.skeleton.bones);
   for (const int bone : input.bone)
-    require(bone >= -1 && bone < static_cast<int>(input.bones.size()),
+    require(bone >= -1 && bone < static_cast<int>(input.skeleton.bones.size()),
             "a particle follows bone " + std::to_string(bone) + ", which does not exist");
   check_surface(input.surface);
 }
 
-Vec3 nearest_on(const MeasuredBone& bone, const Vec3& point) {
+Vec3 nearest_on(const Bone& bone, const Vec3& point) {
   const double at = bone.axis().dot(point - bone.rest.origin);
   return bone.rest.origin + std::clamp(at, 0.0, bone.length) * bone.axis();
 }
 
 /// Half the width of the body around each bone, m.
 std::vector<double> half_widths(const RestInput& input) {
-  std::vector<double> followers(input.bones.size());
+  std::vector<double> followers(input.skeleton.bones.size());
   for (const int bone : input.bone)
     if (bone >= 0) ++followers[bone];
   for (std::size_t i = 0; i < followers.size(); ++i)
-    followers[i] =
-        std::sqrt(followers[i] * volume_per_particle(input.radius) / input.bones[i].length) / 2;
+    followers[i] = std::sqrt(followers[i] * volume_per_particle(input.material.pair.r) /
+                             input.skeleton.bones[i].length) /
+                   2;
   return followers;
 }
 
@@ -83,9 +86,9 @@ struct JointZone {
 std::vector<JointZone> joint_zones(const RestInput& input) {
   const std::vector<double> half = half_widths(input);
   std::vector<JointZone> zones;
-  for (std::size_t i = 0; i < input.bones.size(); ++i)
-    if (const int parent = input.bones[i].parent; parent >= 0)
-      zones.push_back({input.bones[i].rest.origin, std::max(half[i], half[parent])});
+  for (std::size_t i = 0; i < input.skeleton.bones.size(); ++i)
+    if (const int parent = input.skeleton.bones[i].parent; parent >= 0)
+      zones.push_back({input.skeleton.bones[i].rest.origin, std::max(half[i], half[parent])});
   return zones;
 }
 
@@ -100,7 +103,7 @@ std::vector<Bound> bound_particles(const RestInput& input, const std::vector<Joi
   for (std::size_t i = 0; i < input.bone.size(); ++i) {
     if (input.bone[i] < 0) continue;
     Bound bound{static_cast<std::uint32_t>(i), input.bone[i]};
-    bound.foot = nearest_on(input.bones[bound.bone], input.positions[i]);
+    bound.foot = nearest_on(input.skeleton.bones[bound.bone], input.positions[i]);
     bound.distance = (input.positions[i] - bound.foot).norm();
     // Tests the foot, not the particle: the zone is a slab across the bones, including corners.
     bound.far = !near_joint(zones, bound.foot);
@@ -134,19 +137,22 @@ std::vector<double> by_bond(const RestBody& body, const Value& value) {
 }
 
 /// Sums k l^2 over a particle's bonds, over that of one inside, as if all were of one material.
-std::vector<double> volume_shares_by_stiffness(const RestBody& body, const LocalStiffness& local,
+std::vector<double> volume_shares_by_stiffness(const RestBody& body,
                                                const std::vector<double>& factors) {
-  const ForcesOfPairs& law = body.law;
-  if (factors.empty() || !law.second) return {};
-  const double k = law.bond(0, 1), second = law.second(0, 1);  // of springs with f = k (l - d)
-  const double inside =
-      12 * k * 4 * body.radius * body.radius + 6 * second * 8 * body.radius * body.radius;
+  const double k = body.material.bond.stiffness, second = body.material.bond.second;
+  if (factors.empty() || second == 0) return {};
+  const double r = body.radius();
+  const double inside = 12 * k * 4 * r * r + 6 * second * 8 * r * r;
+  const std::vector<double>& modulus = body.forces.stiffness;
+  const auto modulus_between = [&](std::size_t i, std::size_t j) {  // as of springs in series
+    return modulus.empty() ? 1 : 2 / (1 / modulus[i] + 1 / modulus[j]);
+  };
   std::vector<double> volume_shares(body.particles(), 0);
   const double* factor = factors.data();
   const auto add = [&](const NeighborLists& lists, double stiffness) {
     for (std::size_t i = 0; i < lists.size(); ++i)
       for (const std::uint32_t j : lists.of(i))
-        volume_shares[i] += *factor++ / local.modulus_between(i, j) * stiffness / inside *
+        volume_shares[i] += *factor++ / modulus_between(i, j) * stiffness / inside *
                             (body.shape.points[i] - body.shape.points[j]).squaredNorm();
   };
   add(body.shape.neighbors, k);
@@ -164,22 +170,33 @@ std::vector<double> first_bond_rest(const RestBody& rest) {
 
 struct RestBody::Found {
   std::once_flag once;
+  SharedNeighbors neighbors;  ///< until the stiffness is found
   BondStiffness stiffness;
 };
 
 const BondStiffness& RestBody::stiffness() const {
   std::call_once(stiffness_->once, [this] {
     BondStiffness& found = stiffness_->stiffness;
-    LocalStiffness local;
-    if (law.local) local = law.local();
-    found.volume_weight = std::move(local.volume_weight);
-    const bool keeps_volume = law.volume_stiffness > 0 || !law.volume_stiffness_of.empty();
+    if (forces.known) {
+      const auto factors =
+          forces.factors ? forces.factors
+                         : std::make_shared<const BondFactors>(bond_factors(
+                               shape.points, *stiffness_->neighbors, material, forces.volume_share,
+                               forces.stiffness, forces.volume_stiffness));
+      found.volume_weight = factors->volume_weight;
+      if (material.bond.second > 0)  // else all are 1
+        found.factor =
+            by_bond(*this, [&](std::uint32_t i, std::uint32_t j) { return factors->of(i).at(j); });
+    }
+    stiffness_->neighbors.reset();
+    const bool keeps_volume =
+        forces.known && (material.volume_stiffness > 0 || !forces.volume_stiffness.empty());
     require(!keeps_volume || found.volume_weight.size() == particles(),
             "there are " + std::to_string(particles()) + " particles that keep their volumes, " +
                 "but weights for " + std::to_string(found.volume_weight.size()));
-    if (local.factor) found.factor = by_bond(*this, local.factor);
-    if (law.bond && !law.bonds_change) found.length = first_bond_rest(*this);
-    found.volume_share = volume_shares_by_stiffness(*this, local, found.factor);
+    if (law_of(material).has_memory && !bonds_change(material))
+      found.length = first_bond_rest(*this);
+    found.volume_share = volume_shares_by_stiffness(*this, found.factor);
   });
   return stiffness_->stiffness;
 }
@@ -225,27 +242,28 @@ RestBody rest_body(RestInput input) {
   require(body.area > 0, "the surface at rest has no area");
   const std::vector<JointZone> zones = joint_zones(input);
   body.bound = bound_particles(input, zones);
-  body.sections = make_sections(input.fine ? input.fine->rest : input.surface, input.bones,
+  body.sections = make_sections(input.fine ? input.fine->rest : input.surface, input.skeleton.bones,
                                 [&](const Vec3& place) { return near_joint(zones, place); });
-  body.slices = make_slices(input.positions, input.bone, input.bones, input.radius);
-  const bool with_second = static_cast<bool>(input.law.second);
+  body.slices =
+      make_slices(input.positions, input.bone, input.skeleton.bones, input.material.pair.r);
+  const bool with_second = input.material.bond.second > 0;
   if (!input.neighbors)
     input.neighbors = std::make_shared<const RestNeighbors>(
-        rest_neighbors(input.positions, input.radius, with_second));
+        rest_neighbors(input.positions, input.material.pair.r, with_second));
   body.shape = rest_shape(std::move(input.positions), input.neighbors->nearest);
-  body.layer = input.layer.empty() ? surface_layers(body.shape, input.radius) : input.layer;
+  body.layer =
+      input.layer.empty() ? surface_layers(body.shape, input.material.pair.r) : input.layer;
   if (with_second) body.second = second_neighbors(*input.neighbors);
   body.bone_of = std::move(input.bone);
   body.weight = std::move(input.weight);
   body.surface = std::move(input.surface);
   body.fine = std::move(input.fine);
-  body.bones = std::move(input.bones);
-  body.radius = input.radius;
-  body.interaction_range = input.interaction_range;
+  body.bones = std::move(input.skeleton.bones);
   body.start = input.start;
-  body.law = std::move(input.law);
+  body.material = input.material;
+  body.forces = std::move(input.forces);
   body.stiffness_ = std::make_shared<RestBody::Found>();
-  body.mass = input.mass;
+  body.stiffness_->neighbors = std::move(input.neighbors);
   body.density = std::move(input.density);
   return body;
 }

@@ -6,59 +6,23 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include <sinew/body/bond_factors.h>
+#include <sinew/body/pass_through.h>
 #include <sinew/core/deformation.h>
 #include <sinew/core/rest_neighbors.h>
 #include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
+#include <sinew/material/material.h>
 #include <sinew/metrics/frame.h>
 #include <sinew/metrics/sections.h>
 #include <sinew/metrics/slices.h>
+#include <sinew/rig/skeleton.h>
 
 namespace sinew {
-
-/// How stiff bonds and volumes are around single particles, over those inside.
-struct LocalStiffness {
-  /// Factor on the force of two particles' bond; empty: 1.
-  std::function<double(std::uint32_t, std::uint32_t)> factor;
-  std::vector<double> volume_weight;  ///< by particle; empty: none keeps its volume
-  /// Modulus of each particle's material over the body's, which factors contain as that of springs
-  /// in series; empty: 1.
-  std::vector<double> modulus = {};
-
-  double modulus_between(std::size_t i, std::size_t j) const {
-    return modulus.empty() ? 1 : 2 / (1 / modulus[i] + 1 / modulus[j]);
-  }
-};
-
-/// The forces between particles as functions of their distances. Called from several threads.
-struct ForcesOfPairs {
-  /// Force between two particles at a distance (m), N, positive repels; empty: not known.
-  std::function<double(double)> force;
-  /// The same between neighbors at rest, from distance and rest distance; empty: as `force`.
-  std::function<double(double, double)> bond;
-  /// The same between second neighbors at rest, which also act as others do; empty: no more.
-  std::function<double(double, double)> second;
-  /// Energies of the same three, J; empty: not known.
-  std::function<double(double)> energy;
-  std::function<double(double, double)> bond_energy, second_energy;
-  /// Called once, where forces are asked for first: it may take seconds. Empty: the same
-  /// throughout.
-  std::function<LocalStiffness()> local;
-  /// Neighbors at rest farther apart than this hold no longer, m.
-  double reach = std::numeric_limits<double>::infinity();
-  double volume_stiffness = 0;  ///< K_v against each particle's own change of volume, Pa
-  std::vector<double> volume_stiffness_of = {};  ///< by particle; empty: as that
-  bool bonds_change = false;  ///< they break or creep: a frame's state must contain them
-  bool has_muscles = false;   ///< a frame's state must contain their stress
-  /// Whether two particles that are no neighbors at rest exert nothing on each other; empty: none.
-  std::function<bool(std::uint32_t, std::uint32_t)> pass = {};
-};
 
 /// A skin that bends finer than a coarse mesh. Volume, area and sections are its.
 struct FineSkin {
@@ -66,22 +30,34 @@ struct FineSkin {
   std::function<Points(const Points&)> at;  ///< its points by those of the particles, m
 };
 
+/// What forces between the particles depend on beside their material and places.
+struct RestForces {
+  bool known = true;  ///< false where particles are left out of the frames, or nothing is known
+  bool has_muscles = false;  ///< a frame's state must contain their stress
+  /// Factors on bonds near the surface and weights of volumes; none: found where forces are asked
+  /// for first, which may take seconds, from the three below.
+  std::shared_ptr<const BondFactors> factors = {};
+  // Of each particle; each may be empty.
+  std::vector<double> stiffness = {};         ///< modulus of its material over the body's
+  std::vector<double> volume_share = {};      ///< volume around it over that of one inside
+  std::vector<double> volume_stiffness = {};  ///< K_v, Pa; empty: the material's
+  PassThrough pass = {};                      ///< bones whose flesh exerts no contact on each other
+};
+
 /// Input: the body at rest and its constants. Particles are in the written order.
 struct RestInput {
   Points positions;  ///< of the n particles at rest, m
-  SharedNeighbors neighbors =
-      {};             ///< of these, with second ones where law.second is; none: searched
-  Triangles surface;  ///< the body's skin at rest, outside out
+  /// Neighbors there, with second ones where the material has bonds to them; none: searched.
+  SharedNeighbors neighbors = {};
+  Triangles surface;                  ///< the body's skin at rest, outside out
   std::optional<FineSkin> fine = {};  ///< none: the surface is fine enough
   std::vector<int> bone;              ///< n; the bone each particle follows (most), -1 for none
-  std::vector<MeasuredBone> bones;
-  double radius = 0;             ///< of a particle, r, m
-  double interaction_range = 0;  ///< b, m: pairs farther apart do not interact
-  Energies start;                ///< of the first frame, from which the energy balance is taken
-  ForcesOfPairs law;
-  double mass = not_measured;        ///< of a particle, kg
-  std::vector<double> density = {};  ///< n; factors on it; or empty
-  std::vector<double> weight;        ///< n; the weight of that bone in each particle; or empty
+  std::vector<double> weight = {};    ///< n; the weight of that bone in each particle; or empty
+  Skeleton skeleton;
+  Material material;
+  RestForces forces = {};
+  Energies start;                    ///< of the first frame, from which the energy balance is taken
+  std::vector<double> density = {};  ///< n; factors on the mass; or empty
   /// n; as surface_layers() of the whole body, of which these are a part; empty: they are all of
   /// it.
   std::vector<std::int32_t> layer = {};
@@ -107,34 +83,37 @@ struct BondStiffness {
   // Values of each bond, by entry of RestBody::shape.neighbors, then of second.
   std::vector<double> factor;         ///< on its force; empty: 1
   std::vector<double> length;         ///< at rest, m; empty: there are none, or they change
-  std::vector<double> volume_weight;  ///< as LocalStiffness has it
+  std::vector<double> volume_weight;  ///< by particle; empty: none keeps its volume
   /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
   std::vector<double> volume_share;
 };
 
 struct RestBody {
   RestShape shape;       ///< neighbors: pairs closer than 2.2 r
-  NeighborLists second;  ///< neighbors of law.second; empty: there are none
+  NeighborLists second;  ///< those that have bonds as well; empty: there are none
   Triangles surface;
   std::optional<FineSkin> fine;
   double volume = 0;  ///< enclosed by the surface, m^3; not above 0 for a sheet
   double area = 0;    ///< of the surface, m^2
-  std::vector<MeasuredBone> bones;
+  std::vector<Bone> bones;
   std::vector<Bound> bound;
   std::vector<int> bone_of;         ///< n; -1 for none
   std::vector<std::int32_t> layer;  ///< n; see surface_layers()
   std::vector<double> weight;       ///< n, or empty
   Slices slices;
   std::vector<Section> sections;
-  double radius = 0, interaction_range = 0;  ///< m
   Energies start;
-  ForcesOfPairs law;
-  double mass = not_measured;   ///< of a particle, kg
+  Material material;
+  RestForces forces;
   std::vector<double> density;  ///< n; factors on it; or empty
 
   /// In time for the first caller of several threads.
   const BondStiffness& stiffness() const;
-  double mass_of(std::size_t i) const { return density.empty() ? mass : mass * density[i]; }
+  double radius() const { return material.pair.r; }             ///< of a particle, m
+  double interaction_range() const { return material.pair.b; }  ///< m
+  double mass_of(std::size_t i) const {
+    return density.empty() ? material.mass : material.mass * density[i];
+  }
   std::size_t particles() const { return shape.points.size(); }
   /// Bonds of a particle at rest, if its material has some.
   std::size_t bonds_of(std::size_t i) const {

@@ -111,8 +111,7 @@ bool surrounds(const Ring& ring, const Points& points, const Vec3& center, const
   return inside;
 }
 
-std::optional<Section> section_at(const Triangles& surface, const MeasuredBone& bone,
-                                  const Vec3& center) {
+std::optional<Section> section_at(const Triangles& surface, const Bone& bone, const Vec3& center) {
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // of a coordinate
   std::vector<double> height(surface.points.size());
   for (std::size_t i = 0; i < height.size(); ++i) {
@@ -132,7 +131,7 @@ std::optional<Section> section_at(const Triangles& surface, const MeasuredBone& 
 
 }  // namespace
 
-std::vector<Section> make_sections(const Triangles& surface, std::span<const MeasuredBone> bones,
+std::vector<Section> make_sections(const Triangles& surface, std::span<const Bone> bones,
                                    const std::function<bool(const Vec3&)>& near_joint) {
   std::vector<std::optional<Section>> found(bones.size() * (sections_per_bone + 1));
   parallel_for(found.size(), 1, [&](std::size_t begin, std::size_t end) {

@@ -36,7 +36,7 @@ inline constexpr int sections_per_bone = 16;  ///< steps from head to tail, both
 /// Finds the rings around each bone at even steps; none where the bone is outside the skin. The
 /// smallest of nested rings counts. `near_joint` returns whether a point (at rest, m) lies in a
 /// joint zone.
-std::vector<Section> make_sections(const Triangles& surface, std::span<const MeasuredBone> bones,
+std::vector<Section> make_sections(const Triangles& surface, std::span<const Bone> bones,
                                    const std::function<bool(const Vec3&)>& near_joint);
 
 /// Present area of the ring: of its projection along the direction in which that is largest.

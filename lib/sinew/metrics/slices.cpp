@@ -18,7 +18,7 @@ constexpr std::size_t fewest_of_slice = 4;  // particles of a slice
 
 using Members = std::vector<std::uint32_t>;
 
-bool continues(const MeasuredBone& bone, const MeasuredBone& first) {
+bool continues(const Bone& bone, const Bone& first) {
   const Vec3 offset = bone.rest.origin - first.rest.origin;
   return bone.axis().dot(first.axis()) > 0 &&
          bone.axis().cross(first.axis()).norm() < same_direction &&
@@ -26,7 +26,7 @@ bool continues(const MeasuredBone& bone, const MeasuredBone& first) {
 }
 
 /// The first bone of each bone's straight chain.
-std::vector<int> chain_starts(std::span<const MeasuredBone> bones) {
+std::vector<int> chain_starts(std::span<const Bone> bones) {
   std::vector<int> starts;
   for (std::size_t i = 0; i < bones.size(); ++i) {
     const int parent = bones[i].parent;
@@ -36,7 +36,7 @@ std::vector<int> chain_starts(std::span<const MeasuredBone> bones) {
   return starts;
 }
 
-double along(const MeasuredBone& bone, const Vec3& point) {
+double along(const Bone& bone, const Vec3& point) {
   return bone.axis().dot(point - bone.rest.origin);
 }
 
@@ -56,7 +56,7 @@ bool has_turn(const Members& members, const Points& rest) {
 }
 
 /// The chain's slices by their number, counted from its outermost particle.
-std::map<double, Members> cut(const Members& members, const Points& rest, const MeasuredBone& first,
+std::map<double, Members> cut(const Members& members, const Points& rest, const Bone& first,
                               double thickness) {
   double start = std::numeric_limits<double>::infinity();
   for (const auto i : members) start = std::min(start, along(first, rest[i]));
@@ -66,8 +66,8 @@ std::map<double, Members> cut(const Members& members, const Points& rest, const 
   return slices;
 }
 
-void add_chain(Slices& slices, const Members& members, const Points& rest,
-               const MeasuredBone& first, double thickness) {
+void add_chain(Slices& slices, const Members& members, const Points& rest, const Bone& first,
+               double thickness) {
   double last = -2;
   for (auto& [number, particles] : cut(members, rest, first, thickness)) {
     if (!has_turn(particles, rest)) continue;
@@ -79,8 +79,7 @@ void add_chain(Slices& slices, const Members& members, const Points& rest,
 }
 
 /// The two outermost half-planes; the cut is midway between the second and the third.
-Slice tip_of(const Members& members, const Points& rest, const MeasuredBone& bone,
-             double thickness) {
+Slice tip_of(const Members& members, const Points& rest, const Bone& bone, double thickness) {
   double end = -std::numeric_limits<double>::infinity();
   for (const auto i : members) end = std::max(end, along(bone, rest[i]));
   Slice tip{{}, bone.axis()};
@@ -101,8 +100,8 @@ double angle_of(const Mat3& rotation) { return Eigen::AngleAxisd(Quat(rotation))
 
 }  // namespace
 
-Slices make_slices(const Points& rest, std::span<const int> bone,
-                   std::span<const MeasuredBone> bones, double radius) {
+Slices make_slices(const Points& rest, std::span<const int> bone, std::span<const Bone> bones,
+                   double radius) {
   Slices slices;
   if (bones.empty()) return slices;
   const double thickness = half_plane_spacing(radius);

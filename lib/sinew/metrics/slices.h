@@ -29,8 +29,8 @@ struct Slices {
 
 /// Cuts the particles (at rest, m) that follow bones (bone: index or -1 each) into slices of
 /// thickness sqrt(2) r, the first one centered on the outermost particle of its chain.
-Slices make_slices(const Points& rest, std::span<const int> bone,
-                   std::span<const MeasuredBone> bones, double radius);
+Slices make_slices(const Points& rest, std::span<const int> bone, std::span<const Bone> bones,
+                   double radius);
 
 /// The rotation that best maps the particles' rest positions to their present ones, in the sense of
 /// least squares about their centers (Kabsch).

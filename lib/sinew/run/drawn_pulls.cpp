@@ -66,7 +66,7 @@ DrawnPulls::DrawnPulls(const RunFiles& run, std::size_t count) : run_(&run) {
   for (const std::size_t k : spread(places, count)) picked_.push_back(bound[k]);
 }
 
-std::vector<DrawnPull> DrawnPulls::at(const RunFrame& frame) const {
+std::vector<DrawnPull> DrawnPulls::at(const FrameState& frame) const {
   const Pose pose = pose_at(run_->skeleton, motion_, frame.time);
   std::vector<DrawnPull> pulls;
   for (const Picked& one : picked_) {

@@ -36,7 +36,7 @@ class DrawnPulls {
   explicit DrawnPulls(const RunFiles& run, std::size_t count = 36);
 
   /// One for each picked particle, in the same order in all frames.
-  std::vector<DrawnPull> at(const RunFrame& frame) const;
+  std::vector<DrawnPull> at(const FrameState& frame) const;
 
   /// Force below which a pull is rounding, N.
   double negligible() const;

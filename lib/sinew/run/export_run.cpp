@@ -37,7 +37,7 @@ std::size_t frame_at(const RunFiles& run, double time) {
 }
 
 /// Puts a frame in place of the one before.
-void read_into(ParticleCloud& cloud, const RunFiles& run, std::size_t index, RunFrame frame) {
+void read_into(ParticleCloud& cloud, const RunFiles& run, std::size_t index, FrameState frame) {
   cloud.positions = std::move(frame.positions);
   cloud.velocities = std::move(frame.velocities);
   cloud.time = frame.time;
@@ -50,7 +50,7 @@ void read_into(ParticleCloud& cloud, const RunFiles& run, std::size_t index, Run
 }
 
 /// Each is counted by both of its particles.
-std::size_t broken_bonds(const RunFrame& frame) {
+std::size_t broken_bonds(const FrameState& frame) {
   const std::vector<std::int32_t>& of_each = frame.broken_bonds;
   return std::accumulate(of_each.begin(), of_each.end(), std::size_t{0}) / 2;
 }
@@ -93,7 +93,7 @@ ExportedFrames export_frames(const RunFiles& run, const ParticleFormat& format,
   ParticleCloud cloud = rest_cloud(run, format);
   const std::vector<std::array<std::uint32_t, 2>> at_rest = cloud.bonds;
   const auto read = [&](std::size_t index) {
-    RunFrame frame = read_frame(run, index);
+    FrameState frame = read_frame(run, index);
     if (format.bonds && index >= run.bond_rows.size())
       done.broken_bonds = std::max(done.broken_bonds, broken_bonds(frame));
     cloud.bonds = at_rest;

@@ -141,7 +141,7 @@ void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& 
   for (const std::string_view name : headline_metrics()) {
     const auto worst = measured.summary.metrics[metric_index(name)].worst_frame;
     if (!worst || measured.playback.has(*worst)) continue;
-    const FrameState state = measured_frame(read_frame(run, *worst));
+    const FrameState state = read_frame(run, *worst);
     add_frame(measured.playback, *worst, rest, state, particle_values(rest, state));
   }
 }
@@ -213,16 +213,16 @@ void measure_one(Measured& measured, Course& course, const RestBody& rest, const
   course.times.push_back(state.time);
 }
 
+/// Measures all frames; `state` is the first one, and `frames` has the others.
 Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& run,
-                      const MeasureOptions& how) {
+                      FrameState state, FramesInOrder& frames, const MeasureOptions& how) {
   Course course;
   course.meeting_at_rest = self_intersections(run.surface).pairs;
-  FramesInOrder frames(run, how.ahead);
   FrameState first = state_at_rest(rest);
-  first.von_mises = read_frame(run, 0).von_mises;
+  first.von_mises = state.von_mises;
   ValueSeries values(run, defined_arrays(rest, first, how.arrays));
   for (std::size_t i = 0; i < run.frames(); ++i) {
-    const FrameState state = measured_frame(frames.next());
+    if (i > 0) state = frames.next();
     measure_one(measured, course, rest, run, state, how);
     values.add(rest, state);
     if (how.progress) how.progress(i + 1, run.frames());
@@ -233,17 +233,22 @@ Course measure_frames(Measured& measured, const RestBody& rest, const RunFiles& 
 
 }  // namespace
 
-RestBody rest_of(const RunFiles& run) {
+RestBody rest_of(const RunFiles& run, const FrameState& first) {
   RestInput input = measured_body(run);
-  input.start = read_frame(run, 0).energies;
+  input.start = first.energies;
   return rest_body(std::move(input));
 }
 
+RestBody rest_of(const RunFiles& run) { return rest_of(run, read_frame(run, 0)); }
+
 Measured measure_run(const RunFiles& run, const MeasureOptions& how) {
-  const RestBody rest = rest_of(run);
+  FramesInOrder frames(run, how.ahead);
+  FrameState first = frames.next();
+  const RestBody rest = rest_of(run, first);
   Measured measured;
   if (how.playback) measured.playback = plan_playback(rest, run.frames());
-  const Course course = measure_frames(measured, rest, run, how);
+  measured.playback.front = front_in(run, first).value_or(Vec3::Zero());
+  const Course course = measure_frames(measured, rest, run, std::move(first), frames, how);
   const double radius = run.body.particles.radius;
   std::vector<Hold> stills = holds(course.poses, radius);
   for (Hold& hold : stills)
@@ -255,7 +260,6 @@ Measured measure_run(const RunFiles& run, const MeasureOptions& how) {
     measured.checks.push_back(check_limit(limit, measured.frames, measured.summary));
   if (!how.playback) return measured;
   add_worst_frames(measured, rest, run);
-  measured.playback.front = front_in(run).value_or(Vec3::Zero());
   show_world(measured.playback, run, [](std::size_t frame) { return frame; });
   return measured;
 }

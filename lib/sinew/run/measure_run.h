@@ -64,7 +64,8 @@ struct MeasureOptions {
   std::function<void(std::size_t done, std::size_t of)> progress = {};  ///< after each frame
 };
 
-/// The body of a run at rest.
+/// The body of a run at rest; `first`: its first frame.
+RestBody rest_of(const RunFiles& run, const FrameState& first);
 RestBody rest_of(const RunFiles& run);
 
 /// Holds two frames in memory at a time. Throws what reading them does, and not written.

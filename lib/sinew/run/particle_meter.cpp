@@ -2,10 +2,10 @@
 #include <sinew/run/particle_meter.h>
 
 #include <sinew/core/particles.h>
+#include <sinew/material/laws.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/moment_arrays.h>
-#include <sinew/run/run_files.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/stepping/simulation.h>
 #include <sinew/world/muscles.h>
@@ -15,17 +15,18 @@ namespace sinew {
 namespace {
 
 RestBody measured_rest(const Body& body, const Triangles& surface, SharedNeighbors near) {
-  RestInput input = measured_body(body.material, body.skeleton);
-  input.neighbors = near ? std::move(near) : body.neighbors;
-  input.law.local = [factors = std::make_shared<const BondFactors>(body.factors),
-                     modulus = body.stiffness] { return stiffness_by(factors, modulus); };
-  input.law.volume_stiffness_of = body.local.volume;
-  input.law.has_muscles = has_muscles(body);
+  RestInput input;
   input.positions = body.rest;
+  input.neighbors = near ? std::move(near) : body.neighbors;
   input.surface = surface;
   input.bone = bones_of_particles(body);
-  input.law.pass =
-      passing_by(body.pass_through, input.bone, body.rest, near_at_rest(body.material));
+  input.skeleton = body.skeleton;
+  input.material = body.material;
+  input.forces.has_muscles = has_muscles(body);
+  input.forces.factors = std::make_shared<const BondFactors>(body.factors);
+  input.forces.stiffness = body.stiffness;
+  input.forces.volume_stiffness = body.local.volume;
+  input.forces.pass = body.pass_through;
   return rest_body(std::move(input));
 }
 
@@ -37,14 +38,14 @@ ParticleMeter::ParticleMeter(const Body& body, const Triangles& surface, SharedN
 FrameState ParticleMeter::at_rest() const {
   FrameState state = state_at_rest(rest_);
   state.bond_rest = first_bond_rest(rest_);
-  if (rest_.law.has_muscles) state.muscle_stress.assign(rest_.particles(), Mat3::Zero());
+  if (rest_.forces.has_muscles) state.muscle_stress.assign(rest_.particles(), Mat3::Zero());
   return state;
 }
 
 void ParticleMeter::take_forces(Simulation& simulation, double time, FrameState& state) const {
-  if (rest_.law.bonds_change)
+  if (bonds_change(rest_.material))
     state.bond_rest = simulation.rest_of_bonds(rest_.shape.neighbors, rest_.second);
-  if (!rest_.law.has_muscles) return;
+  if (!rest_.forces.has_muscles) return;
   const Muscles& muscles = world_->muscles;
   state.muscle_stress = muscle_stress(muscles, activations_at(muscles, time), state.positions);
 }

@@ -14,7 +14,6 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/material/laws.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/rig/front.h>
 #include <sinew/rig/skin.h>
@@ -120,16 +119,13 @@ Points positions_in(const RunFiles& run, const Dataset& data) {
   return positions;
 }
 
-void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
+void read_particles(const RunFiles& run, std::size_t index, FrameState& frame) {
   const auto file = run.folder.path / run.particle_rows[index].file;
   const Dataset data = read_vtu(
       file, {"displacement", "velocity", "broken_bonds", "von_mises", "group", "force_world"});
   if (data.points.size() != run.body.particles.size()) throw of_another_body(file, "particles");
   told_of(file, [&] {
     frame.positions = positions_in(run, data);
-    frame.displacement.resize(frame.positions.size());
-    for (std::size_t i = 0; i < frame.positions.size(); ++i)
-      frame.displacement[i] = (frame.positions[i] - run.body.particles.position(i)).norm();
     if (find(data.point_columns, "velocity"))
       frame.velocities = vectors(data.point_columns, "velocity");
     frame.energies = energies_of(data);
@@ -145,7 +141,7 @@ void read_particles(const RunFiles& run, std::size_t index, RunFrame& frame) {
   });
 }
 
-void read_surface_points(const RunFiles& run, std::size_t index, RunFrame& frame) {
+void read_surface_points(const RunFiles& run, std::size_t index, FrameState& frame) {
   const auto file = run.folder.path / run.surface_rows[index].file;
   Dataset data = read_vtu(file, {});
   if (data.points.size() != run.surface.points.size()) throw of_another_body(file, "points");
@@ -161,7 +157,7 @@ void check_bone(const RigidFrame& bone, double length, std::size_t index) {
                     "run the scene again with --force");
 }
 
-void read_bones(const RunFiles& run, std::size_t index, RunFrame& frame) {
+void read_bones(const RunFiles& run, std::size_t index, FrameState& frame) {
   const auto file = run.folder.path / run.frame_rows[index].file;
   const Dataset data = read_vtu(file);
   if (data.points.size() != run.skeleton.size()) throw of_another_body(file, "bones");
@@ -268,8 +264,7 @@ RunFiles open_run(const RunFolder& folder) {
   return run;
 }
 
-std::optional<Vec3> front_in(const RunFiles& run) {
-  const RunFrame frame = read_frame(run, 0);
+std::optional<Vec3> front_in(const RunFiles& run, const FrameState& frame) {
   std::vector<std::string> names;
   Points heads, tails;
   for (std::size_t b = 0; b < frame.bones.size(); ++b) {
@@ -280,13 +275,20 @@ std::optional<Vec3> front_in(const RunFiles& run) {
   return names.empty() ? std::nullopt : front_of(names, heads, tails);
 }
 
-RunFrame read_frame(const RunFiles& run, std::size_t index) {
-  RunFrame frame;
+FrameState read_frame(const RunFiles& run, std::size_t index) {
+  FrameState frame;
   frame.time = run.particle_rows[index].time;
   read_particles(run, index, frame);
   read_surface_points(run, index, frame);
   read_bones(run, index, frame);
   return frame;
+}
+
+std::vector<double> displacements(const RunFiles& run, const FrameState& frame) {
+  std::vector<double> far(frame.positions.size());
+  for (std::size_t i = 0; i < far.size(); ++i)
+    far[i] = (frame.positions[i] - run.body.particles.position(i)).norm();
+  return far;
 }
 
 Triangles read_obstacles(const RunFiles& run, std::size_t index) {
@@ -300,14 +302,30 @@ Triangles read_obstacles(const RunFiles& run, std::size_t index) {
 
 namespace {
 
+/// Each particle on the bone that holds it most.
+Binding bound_to(const std::vector<std::int32_t>& bones) {
+  Binding binding{{0}, {}, {}};
+  for (const std::int32_t bone : bones) {
+    if (bone != no_bone) binding.influences.push_back({bone, 1});
+    binding.first.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+  }
+  return binding;
+}
+
 SceneWorld scene_world(const RunFiles& run) {
   Settings settings = run.settings;
   settings.world.obstacles.clear();  // their meshes need not exist any more
   settings.materials.clear();        // nor those of parts
-  const BodyFile body = read_body(run.folder.body());
-  SceneFiles files = read_rig_files(settings);
+  const BodyFile read = run.ids.empty() ? BodyFile() : read_body(run.folder.body());
+  const BodyFile& body = run.ids.empty() ? run.body : read;
+  SceneFiles files;
   files.surface = run.surface;
-  const Body bound = make_body(settings, files, run.skeleton, body.particles, local_material(body));
+  Body bound{positions_of(body.particles), run.skeleton, bound_to(*body.bone), run.material};
+  if (!settings.world.muscles.empty()) {  // they pull with all weights of their bones
+    files = read_rig_files(settings);
+    files.surface = run.surface;
+    bound = make_body(settings, files, run.skeleton, body.particles, local_material(body));
+  }
   return world_of(settings, files, bound, body.component);
 }
 
@@ -332,8 +350,8 @@ FramesInOrder::FramesInOrder(const RunFiles& run, bool ahead) : run_(run), ahead
   for (std::size_t i = 0; i < read_ahead; ++i) begin();
 }
 
-RunFrame FramesInOrder::next() {
-  RunFrame frame = coming_.front().get();
+FrameState FramesInOrder::next() {
+  FrameState frame = coming_.front().get();
   coming_.pop_front();
   begin();
   return frame;
@@ -343,59 +361,6 @@ void FramesInOrder::begin() {
   if (index_ == run_.frames()) return;
   coming_.push_back(std::async(ahead_ ? std::launch::async : std::launch::deferred,
                                [&run = run_, index = index_++] { return read_frame(run, index); }));
-}
-
-LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors,
-                            std::vector<double> modulus) {
-  std::vector<double> weights = factors->volume_weight;
-  return {[factors = std::move(factors)](std::uint32_t i, std::uint32_t j) {
-            return factors->of(i).at(j);
-          },
-          std::move(weights), std::move(modulus)};
-}
-
-ForcesOfPairs pair_law(const Material& material) {
-  const ForceLaw& law = law_of(material);
-  ForcesOfPairs measured;
-  measured.bonds_change = bonds_change(material);
-  if (!law.has_bonds) measured.reach = material.pair.b;
-  const auto bond_of = [&law, &material](auto value, double stiffness) {
-    return [&law, material, value, stiffness](double d, double rest) {
-      return (law.*value)(material, {rest, stiffness}, d);
-    };
-  };
-  measured.force = [&law, material](double d) { return law.force(material, d); };
-  if (law.has_memory) measured.bond = bond_of(&ForceLaw::bond_force, material.bond.stiffness);
-  if (material.bond.second > 0)
-    measured.second = bond_of(&ForceLaw::bond_force, material.bond.second);
-  if (material.bond.branch_count() == 0) {  // what branches store is not in their lengths
-    measured.energy = [&law, material](double d) { return law.energy(material, d); };
-    measured.bond_energy = bond_of(&ForceLaw::bond_energy, material.bond.stiffness);
-    measured.second_energy = bond_of(&ForceLaw::bond_energy, material.bond.second);
-  }
-  if (law.has_bonds) measured.volume_stiffness = material.volume_stiffness;
-  return measured;
-}
-
-std::function<bool(std::uint32_t, std::uint32_t)> passing_by(const PassThrough& pairs,
-                                                             std::vector<int> bone, Points rest,
-                                                             double near_at_rest) {
-  if (!pairs.any()) return {};
-  return [pairs, bone = std::move(bone), rest = std::move(rest), near_at_rest](std::uint32_t i,
-                                                                               std::uint32_t j) {
-    return pairs.between(bone[i], bone[j]) && (rest[i] - rest[j]).norm() >= near_at_rest;
-  };
-}
-
-RestInput measured_body(const Material& material, const Skeleton& skeleton) {
-  RestInput input;
-  for (const Bone& bone : skeleton.bones)
-    input.bones.push_back({bone.name, bone.parent, bone.length, bone.rest});
-  input.radius = material.pair.r;
-  input.interaction_range = material.pair.b;
-  input.mass = material.mass;
-  input.law = pair_law(material);
-  return input;
 }
 
 namespace {
@@ -441,12 +406,8 @@ std::optional<FineSkin> fine_skin(const RunFiles& run) {
   if (!(faces < max_faces_per_particle * static_cast<double>(run.body.particles.size()))) return {};
   FineSkin fine{refined(run.surface, longest_measured_side * r), {}};
   const auto made = [&run, r, points = fine.rest.points] {  // where it is asked for
-    Binding binding{{0}, {}, {}};
-    for (const std::int32_t bone : *run.body.bone) {
-      if (bone != no_bone) binding.influences.push_back({bone, 1});
-      binding.first.push_back(static_cast<std::uint32_t>(binding.influences.size()));
-    }
-    return make_skin(points, positions_of(run.body.particles), r, run.skeleton, binding);
+    return make_skin(points, positions_of(run.body.particles), r, run.skeleton,
+                     bound_to(*run.body.bone));
   };
   fine.at = [skin = std::async(std::launch::deferred, made).share()](const Points& now) {
     const auto mine = skin;  // several threads may ask
@@ -458,48 +419,30 @@ std::optional<FineSkin> fine_skin(const RunFiles& run) {
 }  // namespace
 
 RestInput measured_body(const RunFiles& run) {
-  RestInput input = measured_body(run.material, run.skeleton);
+  RestInput input;
   input.positions = positions_of(run.body.particles);
   input.neighbors = std::make_shared<const RestNeighbors>(
       rest_neighbors(input.positions, run.material.pair.r, run.material.bond.second > 0));
-  input.law.local = [&run, near = input.neighbors] {
-    const LocalMaterial local = local_material(run.body);
-    return stiffness_by(
-        std::make_shared<const BondFactors>(bond_factors(
-            positions_of(run.body.particles), *near, run.material, local.volume_share,
-            local.stiffness, run.body.volume_stiffness.value_or(std::vector<double>{}))),
-        local.stiffness);
-  };
-  if (run.body.volume_stiffness) input.law.volume_stiffness_of = *run.body.volume_stiffness;
-  if (run.body.density) input.density = *run.body.density;
-  input.law.has_muscles = !run.settings.world.muscles.empty();
-  if (!run.ids.empty()) input.layer = layers_of_part(run);
-  if (!run.ids.empty()) input.law = {};  // of what is not there, forces act as well
   input.surface = run.surface;
   input.fine = fine_skin(run);
   input.bone.assign(run.body.bone->begin(), run.body.bone->end());
-  if (run.body.weight) input.weight = *run.body.weight;
-  if (run.ids.empty() && run.settings.contact.pass_through.any())
-    input.law.pass =
-        passing_by(passing_of(run), input.bone, input.positions, near_at_rest(run.material));
+  input.weight = run.body.weight.value_or(std::vector<double>{});
+  input.skeleton = run.skeleton;
+  input.material = run.material;
+  input.density = run.body.density.value_or(std::vector<double>{});
+  RestForces& forces = input.forces;
+  if (!run.ids.empty()) {  // of particles that are not there, forces act as well
+    input.layer = layers_of_part(run);
+    forces.known = false;
+    return input;
+  }
+  LocalMaterial local = local_material(run.body);
+  forces.stiffness = std::move(local.stiffness);
+  forces.volume_share = std::move(local.volume_share);
+  forces.volume_stiffness = run.body.volume_stiffness.value_or(std::vector<double>{});
+  forces.has_muscles = !run.settings.world.muscles.empty();
+  if (run.settings.contact.pass_through.any()) forces.pass = passing_of(run);
   return input;
-}
-
-FrameState measured_frame(RunFrame frame) {
-  return {frame.time,
-          std::move(frame.positions),
-          std::move(frame.velocities),
-          std::move(frame.surface_points),
-          std::move(frame.bones),
-          frame.energies,
-          std::move(frame.bone_lengths),
-          std::move(frame.broken_bonds),
-          {},
-          {},
-          std::move(frame.von_mises),
-          std::move(frame.group),
-          std::move(frame.world_force),
-          frame.unbalanced};
 }
 
 }  // namespace sinew

@@ -2,7 +2,7 @@
 // Reads the files of a run, for measuring and drawing.
 //
 //     const RunFiles run = open_run({"out/bend"});
-//     const RunFrame last = read_frame(run, run.frames() - 1);
+//     const FrameState last = read_frame(run, run.frames() - 1);
 #pragma once
 
 #include <deque>
@@ -12,8 +12,6 @@
 #include <string>
 #include <vector>
 
-#include <sinew/body/bond_factors.h>
-#include <sinew/body/pass_through.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/series.h>
@@ -55,33 +53,15 @@ struct RunFiles {
 /// by output.every) are left out, and so are particles that frames do not contain (output.region).
 RunFiles open_run(const RunFolder& folder);
 
-/// Which particles, by id, exert nothing on each other; empty: all do. Of copies of what it is
-/// given.
-std::function<bool(std::uint32_t, std::uint32_t)> passing_by(const PassThrough& pairs,
-                                                             std::vector<int> bone, Points rest,
-                                                             double near_at_rest);
+/// Where the figure looks in a frame, by its bones; see front_of().
+std::optional<Vec3> front_in(const RunFiles& run, const FrameState& frame);
 
-/// All data of one frame, in the written order.
-struct RunFrame {
-  double time = 0;                   ///< s
-  Points positions, surface_points;  ///< m
-  Points velocities;                 ///< m/s; empty: not written
-  std::vector<double> displacement;  ///< its size per particle, m
-  std::vector<RigidFrame> bones;     ///< heads and axes
-  std::vector<double> bone_lengths;  ///< head to tail, m: bones may stretch
-  Energies energies;
-  std::vector<std::int32_t> broken_bonds;  ///< of each particle; empty: it has no bonds
-  std::vector<double> von_mises;           ///< Pa; empty: not written
-  std::vector<std::int32_t> group;         ///< of each particle, -1: free; empty: there are none
-  Points world_force;                      ///< force_world, N; empty: not written
-  Unbalanced unbalanced;
-};
-
-/// Where the figure looks in the first frame, by its bones; see front_of().
-std::optional<Vec3> front_in(const RunFiles& run);
-
+/// All data of one frame, but for lengths of bonds and stress of muscles, which runs do not write.
 /// Throws bad input, naming the file, where it is damaged or of another body.
-RunFrame read_frame(const RunFiles& run, std::size_t frame);
+FrameState read_frame(const RunFiles& run, std::size_t frame);
+
+/// Distance of each particle from its place at rest, m.
+std::vector<double> displacements(const RunFiles& run, const FrameState& frame);
 
 /// All obstacles of a frame in the scene; empty where none are written. Throws as read_frame does.
 Triangles read_obstacles(const RunFiles& run, std::size_t frame);
@@ -100,7 +80,7 @@ class FramesInOrder {
   FramesInOrder(const RunFiles& run, bool ahead);
 
   /// May be called once per frame. Throws what read_frame() does.
-  RunFrame next();
+  FrameState next();
 
  private:
   void begin();
@@ -108,28 +88,14 @@ class FramesInOrder {
   const RunFiles& run_;
   bool ahead_;
   std::size_t index_ = 0;
-  std::deque<std::future<RunFrame>> coming_;
+  std::deque<std::future<FrameState>> coming_;
 };
-
-// The input of metrics: the body and the forces in it.
-
-/// The material's forces between particles, the same throughout.
-ForcesOfPairs pair_law(const Material& material);
-/// The stiffness around each particle; `modulus` as LocalStiffness::modulus.
-LocalStiffness stiffness_by(std::shared_ptr<const BondFactors> factors,
-                            std::vector<double> modulus);
 
 /// Faces with longer sides, in radii, are divided where volumes, areas and sections are measured.
 inline constexpr double longest_measured_side = 4;
 
-/// Radius, range, mass and forces from the material; the bones from the skeleton. The caller adds
-/// positions, surface and the bones of particles.
-RestInput measured_body(const Material& material, const Skeleton& skeleton);
-
-/// The same from a run's files, with its body at rest. The run must outlive what is made of it.
+/// The input of metrics: the body of a run at rest, but for the energies of its start. The run
+/// must outlive what is made of it.
 RestInput measured_body(const RunFiles& run);
-
-/// A frame as input of the metrics.
-FrameState measured_frame(RunFrame frame);
 
 }  // namespace sinew

@@ -181,7 +181,7 @@ class RunInElements {
  private:
   void add(std::size_t k) {
     const FrdStep& step = result_.steps[pairs_[k].step];
-    const FrameState state = measured_frame(read_frame(run_, pairs_[k].frame));
+    const FrameState state = read_frame(run_, pairs_[k].frame);
     const FrameState elements = moved_by_elements(state, step);
     MeasuredFrame one = measured(elements, k, elements_playback_);
     MeasuredFrame other = measured(state, k, run_playback_);

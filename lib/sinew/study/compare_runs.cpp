@@ -66,7 +66,7 @@ struct Alike {
 };
 
 Alike alike(const Side& first, const Side& second) {
-  const double r = first.rest.radius;
+  const double r = first.rest.radius();
   return {
       began_alike(first.rest.shape.points, second.rest.shape.points, same_place * r),
       first.run.surface.faces == second.run.surface.faces &&
@@ -131,8 +131,8 @@ void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, co
     side->playback = plan_playback(side->rest, pairs.size(), 0.5);
   second.playback.wanted = first.playback.wanted;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const FrameState one = measured_frame(read_frame(first.run, pairs[k][0]));
-    const FrameState other = measured_frame(read_frame(second.run, pairs[k][1]));
+    const FrameState one = read_frame(first.run, pairs[k][0]);
+    const FrameState other = read_frame(second.run, pairs[k][1]);
     add_distances(second.measured.frames[pairs[k][1]], one, other, first, second, same);
     add_snapshot(first, k, one);
     add_snapshot(second, k, other);
@@ -154,7 +154,7 @@ ComparedRun compared_run(const Side& side, const std::vector<Pair>& pairs, std::
   ComparedRun run{name_of_run(side.run.folder.path),
                   {},
                   side.measured.summary,
-                  side.rest.radius,
+                  side.rest.radius(),
                   side.rest.particles()};
   for (const Pair& pair : pairs) run.frames.push_back(side.measured.frames[pair[which]]);
   return run;

@@ -194,12 +194,12 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double fraction
     return static_cast<std::size_t>(fraction * static_cast<double>(all));
   };
   plan_particles(playback, rest, bytes_of(particle_bytes));
-  playback.balls = {{playback.particles.size(), shown_radius(playback, rest.radius)}};
+  playback.balls = {{playback.particles.size(), shown_radius(playback, rest.radius())}};
   ThinSurface skin =
       thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * max_snapshots(playback)));
   playback.points = std::move(skin.points);
   playback.faces = std::move(skin.faces);
-  for (const MeasuredBone& bone : rest.bones) {
+  for (const Bone& bone : rest.bones) {
     playback.bone_color.push_back(static_cast<int>(playback.bone_color.size()));
     playback.bone_names.push_back(bone.name);
   }
