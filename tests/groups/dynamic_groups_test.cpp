@@ -75,7 +75,9 @@ TEST(DynamicGroups, StatesOfOtherSkeletonsAreRefused) {
       [](auto& state) { state.times = -1; }, [](auto& state) { state.lost = std::nan(""); }};
   for (const auto& forge : forgeries) {
     SimulationState state = good;
-    forge(state.regrouping);
+    auto regrouping = part_of<RegroupingState>(state, "regrouping");
+    forge(regrouping);
+    put_part(state, "regrouping", regrouping);
     test::expect_bad_input([&] { begin(bar).restore(state); }, {"another skeleton"});
   }
   begin(bar).restore(good);

@@ -254,7 +254,9 @@ TEST(Relaxation, RefusesStatesThatAreOnNoWayToRest) {
       [=](auto& state) { state.unbalanced = nan; }};
   for (const auto& forge : forgeries) {
     SimulationState state = good;
-    forge(state.relaxation);
+    RelaxationState relaxation = relaxation_in(state);
+    forge(relaxation);
+    put_part(state, rest_part, relaxation);
     test::expect_bad_input([&] { machine.relaxing(steps).restore(state); }, {"way to rest"});
   }
   machine.relaxing(steps).restore(good);

@@ -331,6 +331,14 @@ TEST(Resume, ParticlesThatComeTogetherInAnotherOrderAreSortedAgain) {
   EXPECT_EQ(simulation.list_counts().sorts, of_the_cloud + 1);
 }
 
+/// Changes numbers of a part.
+template <class Number, class Change>
+void change(SimulationState& state, const char* part, const char* name, const Change& by) {
+  auto numbers = column_of<Number>(state, part, name);
+  by(numbers);
+  put_column(state, part, name, std::move(numbers));
+}
+
 TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   using enum Precision;
   const SimulationState good = bend("", binary64).begin().save();
@@ -362,7 +370,9 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   bad.steps = -1;
   refuse(bend("", binary64), bad, "steps");
   bad = good;
-  bad.world_ledger.work = NAN;
+  auto ledgers = part_of<Ledgers>(good, ledgers_part);
+  ledgers.of_world.work = NAN;
+  put_part(bad, ledgers_part, ledgers);
   refuse(bend("", binary64), bad, "energies");
   bad = bend("", binary32).begin().save();
   bad.fixed_point_units.length = 0;
@@ -370,34 +380,35 @@ TEST(Resume, RefusesAStateOfAnotherBodyOrNone) {
   const World tears = tearing("", MaterialModel::bonded);
   const SimulationState torn = tears.begin().save();
   bad = torn;
-  bad.bonded_lanes.pop_back();
+  change<std::uint32_t>(bad, "bonds", "lanes", [&](auto& numbers) { numbers.pop_back(); });
   refuse(tears, bad, "bonds");
   bad = torn;
-  bad.bonded_lanes.front() = ~bad.bonded_lanes.front();
+  change<std::uint32_t>(bad, "bonds", "lanes",
+                        [&](auto& numbers) { numbers.front() = ~numbers.front(); });
   refuse(tears, bad, "bonds");
   for (const double value : {double(NAN), HUGE_VAL}) {
     bad = torn;
-    bad.creep[7] = value;
+    change<double>(bad, "bonds", "creep", [&](auto& numbers) { numbers[7] = value; });
     refuse(tears, bad, "length");
   }
   for (const double value : {double(NAN), HUGE_VAL}) {
     bad = torn;
-    bad.branch_stretches[7] = value;
+    change<double>(bad, "branches", "stretches", [&](auto& numbers) { numbers[7] = value; });
     refuse(tears, bad, "branch");
     bad = torn;
-    bad.branch_clocks[1] = value;
+    change<double>(bad, "branches", "clocks", [&](auto& numbers) { numbers[1] = value; });
     refuse(tears, bad, "branch");
   }
   bad = torn;
-  bad.branch_stretches.pop_back();
+  change<double>(bad, "branches", "stretches", [&](auto& numbers) { numbers.pop_back(); });
   refuse(tears, bad, "branches");
   const World in_cells = with(tears, NeighborSearch::cells);
   bad = in_cells.begin().save();
   refuse(tears, bad, "cells");
-  bad.rest_length.pop_back();
+  change<double>(bad, "bonds of cells", "rest", [&](auto& numbers) { numbers.pop_back(); });
   refuse(in_cells, bad, "bonds");
   bad = in_cells.begin().save();
-  bad.branch_stretches.pop_back();
+  change<double>(bad, "branches", "stretches", [&](auto& numbers) { numbers.pop_back(); });
   refuse(in_cells, bad, "branches");
 }
 

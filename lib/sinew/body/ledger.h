@@ -5,9 +5,48 @@
 //     ledger.add_step(sums.power, sums.lost);
 #pragma once
 
+#include <cmath>
+
 #include <sinew/core/simulation_state.h>
 
 namespace sinew {
+
+/// Work and losses so far, J.
+struct LedgerEntries {
+  double work = 0, dissipation = 0;
+  double power = 0;    ///< at the beginning of the last step, W
+  bool begun = false;  ///< whether there was a step
+
+  bool finite() const {
+    return std::isfinite(work) && std::isfinite(dissipation) && std::isfinite(power);
+  }
+};
+
+/// Calls archive(name, member) for each member, to write or to read it.
+template <class Archive>
+void serialize(Archive& archive, LedgerEntries& ledger, const std::string& prefix = "") {
+  archive(prefix + "work", ledger.work);
+  archive(prefix + "lost", ledger.dissipation);
+  archive(prefix + "power", ledger.power);
+  archive(prefix + "begun", ledger.begun);
+}
+
+/// The ledgers of a simulation, as its states have them.
+struct Ledgers {
+  LedgerEntries of_bones;
+  LedgerEntries of_world;    ///< obstacles, fields, muscles and pins
+  double held_at_start = 0;  ///< kinetic energy of what pins hold, J
+};
+
+/// Name of their part.
+inline constexpr std::string_view ledgers_part = "ledgers";
+
+template <class Archive>
+void serialize(Archive& archive, Ledgers& ledgers) {
+  serialize(archive, ledgers.of_bones, "bones_");
+  serialize(archive, ledgers.of_world, "world_");
+  archive("held_at_start", ledgers.held_at_start);
+}
 
 class EnergyLedger {
  public:

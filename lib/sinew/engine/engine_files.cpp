@@ -171,9 +171,7 @@ void write_engine_run(const EngineFolder& folder, const EngineRun& run) {
   setup.last = run.plan.last();
   setup.start.steps = run.state.steps;
   setup.start.kicked = run.state.kicked;
-  setup.start.ledger = run.state.ledger;
-  setup.start.world_ledger = run.state.world_ledger;
-  setup.start.held_at_start = run.state.held_at_start;
+  setup.start.ledgers = part_of<Ledgers>(run.state, ledgers_part);
   setup.with_forces = run.with_forces;
   setup.pieces = run.pieces;
   write_particles(folder.particles(), run, rows);
@@ -242,9 +240,7 @@ SimulationState read_engine_state(const EngineFolder& folder, std::int64_t steps
   SimulationState state = like;
   state.steps = moment.steps;
   state.kicked = moment.kicked;
-  state.ledger = moment.ledger;
-  state.world_ledger = moment.world_ledger;
-  state.held_at_start = moment.held_at_start;
+  put_part(state, ledgers_part, moment.ledgers);
   auto& moving = std::get<MovingInDouble>(state.moving);
   const std::vector<std::uint32_t> place = places_of(state, ids);
   std::size_t found = 0;

@@ -59,8 +59,7 @@ struct EnginePieces {
 struct EngineMoment {
   std::int64_t steps = 0;
   bool kicked = false;  ///< velocities are half a step behind positions (velocity Verlet)
-  LedgerEntries ledger, world_ledger;
-  double held_at_start = 0;              ///< kinetic energy of what is held, J
+  Ledgers ledgers;
   std::vector<std::uint64_t> particles;  ///< on each rank
   bool in_frame = false;                 ///< they are written in the file of this moment's frame
   std::string engine;                    ///< which version of which

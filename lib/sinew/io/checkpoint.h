@@ -9,9 +9,9 @@
 // so that a complete checkpoint exists at any time. Format, in the machine's byte order
 // (which a mark identifies):
 //   "SINEWCKP", mark u32, version u32, length of the file u64,
-//   sections: name (8 bytes), bytes of an element u64, elements u64, the elements,
+//   "program" (8 bytes), 1 u64, its length u64, the version of the program that wrote it,
+//   run and state as core/archive.h has them,
 //   FNV-1a of all bytes before, u64.
-// The order of sections is fixed; one with another name or element size than expected is refused.
 #pragma once
 
 #include <cstdint>
@@ -39,6 +39,7 @@ struct RunIdentity {
 struct Checkpoint {
   RunIdentity run;
   SimulationState state;
+  std::uint64_t number = 0;  ///< of those that the run has written
 };
 
 /// Throws not written.
@@ -54,7 +55,7 @@ class Checkpoints {
   explicit Checkpoints(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Replaces the older one. Creates the folder. Throws not written.
-  void write(const Checkpoint& checkpoint);
+  void write(Checkpoint checkpoint);
 
   /// The newest complete one, nothing where there is no file. `complaint` names one that is
   /// damaged. Throws bad input where all are damaged. Removes incomplete temporary files.
@@ -63,6 +64,7 @@ class Checkpoints {
  private:
   std::filesystem::path folder_;
   int next_ = 0;  ///< to be replaced: 0 a.bin, 1 b.bin
+  std::uint64_t written_ = 0;
 };
 
 }  // namespace sinew

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include <sinew/core/dataset.h>
+#include <sinew/core/energies.h>
 #include <sinew/core/particles.h>
-#include <sinew/core/simulation_state.h>
 #include <sinew/io/frames.h>
 #include <sinew/rig/binding.h>
 

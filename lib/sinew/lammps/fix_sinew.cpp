@@ -23,13 +23,13 @@ void FixSinew::attach(LocalBody& body, std::function<Interruption()> interruptio
   plan_ = setup.plan();
   moment_ = setup.start;
   if (comm->me > 0) {
-    moment_.ledger = {0, 0, 0, setup.start.ledger.begun};
-    moment_.world_ledger = {0, 0, 0, setup.start.world_ledger.begun};
-    moment_.held_at_start = 0;
+    moment_.ledgers.of_bones = {0, 0, 0, setup.start.ledgers.of_bones.begun};
+    moment_.ledgers.of_world = {0, 0, 0, setup.start.ledgers.of_world.begun};
+    moment_.ledgers.held_at_start = 0;
   }
   step_ = plan_.step(std::max<std::int64_t>(0, moment_.steps - 1));
-  ledger_.restore(moment_.ledger, step_);
-  world_ledger_.restore(moment_.world_ledger, step_);
+  ledger_.restore(moment_.ledgers.of_bones, step_);
+  world_ledger_.restore(moment_.ledgers.of_world, step_);
   maxexchange = static_cast<int>(body.width);
   grow_arrays(atom->nmax);
 }

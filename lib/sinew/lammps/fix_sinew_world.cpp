@@ -67,11 +67,11 @@ void FixSinew::add_to_ledgers() {
     power += (body_->world[at] - on.force() - load_[at]).dot(own);
     held_kinetic += body_->setup.material.mass / 2 * own.squaredNorm();
   }
-  if (moment_.steps == 0) moment_.held_at_start = held_kinetic;
+  if (moment_.steps == 0) moment_.ledgers.held_at_start = held_kinetic;
   ledger_.add_step(power_, lost);
   world_ledger_.add_step(power, 0);
-  moment_.ledger = ledger_.entries();
-  moment_.world_ledger = world_ledger_.entries();
+  moment_.ledgers.of_bones = ledger_.entries();
+  moment_.ledgers.of_world = world_ledger_.entries();
 }
 
 }  // namespace sinew

@@ -258,9 +258,10 @@ class LammpsRun {
 
   /// The energies of all ranks, on the first.
   static void add_up(EngineMoment& moment, int me) {
-    for (double* value : {&moment.ledger.work, &moment.ledger.dissipation, &moment.ledger.power,
-                          &moment.world_ledger.work, &moment.world_ledger.dissipation,
-                          &moment.world_ledger.power, &moment.held_at_start})
+    for (double* value : {&moment.ledgers.of_bones.work, &moment.ledgers.of_bones.dissipation,
+                          &moment.ledgers.of_bones.power, &moment.ledgers.of_world.work,
+                          &moment.ledgers.of_world.dissipation, &moment.ledgers.of_world.power,
+                          &moment.ledgers.held_at_start})
       MPI_Reduce(me == 0 ? MPI_IN_PLACE : value, value, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
   }
 

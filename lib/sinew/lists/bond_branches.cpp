@@ -55,29 +55,29 @@ double BondBranches<Real>::shift(std::size_t place) const {
 template <class Real>
 void BondBranches<Real>::save(std::span<const kernel::BondEntry> entries,
                               SimulationState& state) const {
-  state.branch_clocks.clear();
-  state.branch_stretches.clear();
+  SavedBranches saved;
   for (const One& one : all_) {
-    state.branch_clocks.push_back(one.clock.ahead());
+    saved.clocks.push_back(one.clock.ahead());
     for_each_whole<kernel::Traits<Real>::block>(entries, [&](std::size_t place) {
-      state.branch_stretches.push_back(static_cast<double>(one.stretch[place]));
+      saved.stretches.push_back(static_cast<double>(one.stretch[place]));
     });
   }
+  put_branches(state, std::move(saved));
 }
 
 template <class Real>
 void BondBranches<Real>::restore(std::span<const kernel::BondEntry> entries,
                                  const SimulationState& state) {
-  check_branches(state, all_.size());
+  const SavedBranches saved = saved_branches(state, all_.size());
   std::size_t next = 0;
   for (std::size_t b = 0; b < all_.size(); ++b) {
-    all_[b].clock = BranchClock(all_[b].branch.time, state.branch_clocks[b]);
+    all_[b].clock = BranchClock(all_[b].branch.time, saved.clocks[b]);
     for_each_whole<kernel::Traits<Real>::block>(entries, [&](std::size_t place) {
-      if (next == state.branch_stretches.size()) throw not_a_state("it has other branches");
-      all_[b].stretch[place] = static_cast<Real>(state.branch_stretches[next++]);
+      if (next == saved.stretches.size()) throw not_a_state("it has other branches");
+      all_[b].stretch[place] = static_cast<Real>(saved.stretches[next++]);
     });
   }
-  if (next != state.branch_stretches.size()) throw not_a_state("it has other branches");
+  if (next != saved.stretches.size()) throw not_a_state("it has other branches");
 }
 
 template class BondBranches<double>;

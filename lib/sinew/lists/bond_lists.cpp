@@ -369,11 +369,13 @@ void BondLists<Real>::read(std::span<const std::int32_t> id, const Units& units,
 template <class Real>
 void BondLists<Real>::save(SimulationState& state) const {
   if (!change()) return;
-  state.bonded_lanes.clear();
-  state.creep.clear();
-  for (const kernel::BondEntry& entry : entries) state.bonded_lanes.push_back(entry.lanes);
-  const auto add = [&](std::size_t at) { state.creep.push_back(static_cast<double>(creep[at])); };
+  std::vector<std::uint32_t> lanes;  // by entry
+  std::vector<double> crept;         // each whole bond, in lengths of the kernel
+  for (const kernel::BondEntry& entry : entries) lanes.push_back(entry.lanes);
+  const auto add = [&](std::size_t at) { crept.push_back(static_cast<double>(creep[at])); };
   if (!creep.empty()) for_each_whole<kernel::Traits<Real>::block>(entries, add);
+  put_column(state, "bonds", "lanes", std::move(lanes));
+  put_column(state, "bonds", "creep", std::move(crept));
   branches.save(entries, state);
 }
 
@@ -381,10 +383,12 @@ template <class Real>
 void BondLists<Real>::restore(const SimulationState& state) {
   constexpr std::size_t size = kernel::Traits<Real>::block;
   if (!change()) return;
-  if (state.bonded_lanes.size() != entries.size()) throw not_a_state("it has other bonds");
+  const auto lanes = column_of<std::uint32_t>(state, "bonds", "lanes");
+  const auto crept = column_of<double>(state, "bonds", "creep");
+  if (lanes.size() != entries.size()) throw not_a_state("it has other bonds");
   for (std::size_t block = 0; block + 1 < first.size(); ++block)
     for (std::uint32_t e = first[block]; e < first[block + 1]; ++e) {
-      const std::uint32_t made = std::exchange(entries[e].lanes, state.bonded_lanes[e]);
+      const std::uint32_t made = std::exchange(entries[e].lanes, lanes[e]);
       if ((entries[e].lanes & ~made) != 0 || (made & ~entries[e].lanes) >> kernel::rest_lanes != 0)
         throw not_a_state("it has other bonds");
       for (std::size_t lane = 0; lane < size && !broken.empty(); ++lane)
@@ -393,12 +397,12 @@ void BondLists<Real>::restore(const SimulationState& state) {
     }
   std::size_t next = 0;
   const auto take = [&](std::size_t at) {
-    if (next == state.creep.size() || !std::isfinite(state.creep[next]))
+    if (next == crept.size() || !std::isfinite(crept[next]))
       throw not_a_state("a bond has no length");
-    creep[at] = static_cast<Real>(state.creep[next++]);
+    creep[at] = static_cast<Real>(crept[next++]);
   };
   if (!creep.empty()) for_each_whole<size>(entries, take);
-  if (next != state.creep.size()) throw not_a_state("it has other bonds");
+  if (next != crept.size()) throw not_a_state("it has other bonds");
   branches.restore(entries, state);
 }
 

@@ -51,28 +51,43 @@ void MaxwellBranches::advance(double step) {
   for (BranchClock& clock : clocks_) clock.advance(step);
 }
 
+void put_branches(SimulationState& state, SavedBranches branches) {
+  put_column(state, "branches", "clocks", std::move(branches.clocks));
+  put_column(state, "branches", "stretches", std::move(branches.stretches));
+}
+
+SavedBranches saved_branches(const SimulationState& state, std::size_t branches) {
+  SavedBranches saved{column_of<double>(state, "branches", "clocks"),
+                      column_of<double>(state, "branches", "stretches")};
+  if (saved.clocks.size() != branches)
+    throw not_a_state("its bonds have " + std::to_string(saved.clocks.size()) + " branches, not " +
+                      std::to_string(branches));
+  if (!all_finite(saved.clocks) || !all_finite(saved.stretches))
+    throw not_a_state("a branch of a bond has no length");
+  return saved;
+}
+
 void MaxwellBranches::save(SimulationState& state) const {
-  state.branch_clocks.clear();
-  state.branch_stretches.clear();
-  for (const BranchClock& clock : clocks_) state.branch_clocks.push_back(clock.ahead());
+  SavedBranches saved;
+  for (const BranchClock& clock : clocks_) saved.clocks.push_back(clock.ahead());
   for (const Branches* branches : {&nearest, &second})
     for (const Branches::One& one : branches->all)
-      state.branch_stretches.insert(state.branch_stretches.end(), one.stretch.begin(),
-                                    one.stretch.end());
+      saved.stretches.insert(saved.stretches.end(), one.stretch.begin(), one.stretch.end());
+  put_branches(state, std::move(saved));
 }
 
 void MaxwellBranches::restore(const SimulationState& state) {
-  check_branches(state, clocks_.size());
+  const SavedBranches saved = saved_branches(state, clocks_.size());
   std::size_t entries = 0;
   for (const Branches* branches : {&nearest, &second})
     for (const Branches::One& one : branches->all) entries += one.stretch.size();
-  if (state.branch_stretches.size() != entries) throw not_a_state("it has other branches");
-  auto from = state.branch_stretches.begin();
+  if (saved.stretches.size() != entries) throw not_a_state("it has other branches");
+  auto from = saved.stretches.begin();
   for (Branches* branches : {&nearest, &second})
     for (Branches::One& one : branches->all)
       for (double& stretch : one.stretch) stretch = *from++;
   for (std::size_t b = 0; b < clocks_.size(); ++b)
-    clocks_[b] = BranchClock(clocks_[b].time(), state.branch_clocks[b]);
+    clocks_[b] = BranchClock(clocks_[b].time(), saved.clocks[b]);
 }
 
 }  // namespace sinew

@@ -81,4 +81,14 @@ class MaxwellBranches {
   std::vector<BranchClock> clocks_;
 };
 
+/// Branches of bonds in a state.
+struct SavedBranches {
+  std::vector<double> clocks;     ///< how far each is ahead in the end, s
+  std::vector<double> stretches;  ///< dashpots of each branch, by bond, in a stepper's lengths
+};
+
+void put_branches(SimulationState& state, SavedBranches branches);
+/// Throws bad input unless the state has so many branches of bonds, all finite.
+SavedBranches saved_branches(const SimulationState& state, std::size_t branches);
+
 }  // namespace sinew

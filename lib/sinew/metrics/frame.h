@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <sinew/core/simulation_state.h>
+#include <sinew/core/energies.h>
 #include <sinew/core/vector.h>
 #include <sinew/metrics/statistics.h>
 

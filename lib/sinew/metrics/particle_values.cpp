@@ -175,7 +175,7 @@ Column of_gradient(std::string_view name, const RestBody& rest, const Points& no
 }
 
 /// Principal values of F^T F, ascending, with their directions.
-Values<3> stretches(const Mat3& F) {
+Values<3> principal_stretches(const Mat3& F) {
   const Vec3 squares = eigenvalues(F.transpose() * F).cwiseMax(flattest);
   return {std::sqrt(squares[2]), std::sqrt(squares[1]), std::sqrt(squares[0])};
 }
@@ -238,7 +238,7 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
     if (name == "F")
       columns.push_back(of_gradient<9>(name, rest, now, row_by_row));
     else if (name == "stretch")
-      columns.push_back(of_gradient<3>(name, rest, now, stretches));
+      columns.push_back(of_gradient<3>(name, rest, now, principal_stretches));
     else if (name == "strain")
       columns.push_back(of_gradient<6>(name, rest, now, green_lagrange));
     else if (name == "hencky_strain")

@@ -14,6 +14,7 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/metrics/frame.h>
+#include <sinew/rig/skeleton.h>
 
 namespace sinew {
 

@@ -13,6 +13,7 @@
 
 #include <sinew/core/vector.h>
 #include <sinew/metrics/frame.h>
+#include <sinew/rig/skeleton.h>
 
 namespace sinew {
 

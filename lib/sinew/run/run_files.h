@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <sinew/core/simulation_state.h>
+#include <sinew/core/energies.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>

@@ -56,8 +56,8 @@ struct Schedule {
 
   /// Frames up to a state; one that lies after the end is not of this run.
   int frames_until(const SimulationState& state) const {
-    const StepPlan made = plan_with(plan, state.guard);
-    const std::int64_t moments = state.relaxation.at_rest;
+    const StepPlan made = plan_with(plan, guard_in(state));
+    const std::int64_t moments = relaxation_in(state).at_rest;
     if (relaxes && (moments < 0 || moments > frames.count + 1))
       throw bad_input("the checkpoint is of load step " + std::to_string(moments) +
                           ", and the run ends with " + std::to_string(frames.count),

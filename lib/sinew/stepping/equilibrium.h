@@ -26,6 +26,55 @@
 
 namespace sinew {
 
+/// State of a body that is brought to rest at one moment after another.
+struct RelaxationState {
+  std::int64_t at_rest = 0;     ///< moments at which it has been
+  std::int64_t iterations = 0;  ///< in the present increment of the way to the next of them
+  std::int64_t spent = 0;       ///< in increments before it, those given up included
+  std::int64_t increments = 0;  ///< accepted on that way
+  double reached = 0;           ///< fraction of that way where it was at rest last
+  double increment = 1;         ///< fraction of it that is tried now
+  double shortened = 1;         ///< factor on the step
+  double damping = 0;           ///< c, 1/s
+  double pushed = 0;            ///< a.v after the last iteration, m^2/s^3
+  double largest = 0;           ///< force applied where the body was at rest, N
+  double applied = 0;           ///< in the last iteration, N
+  double unbalanced = 0;        ///< forces in the last iteration that nothing answered, N
+  double best = 0;              ///< the smallest of these that counted as progress, N
+  std::int64_t best_at = 0;     ///< the iteration in which it was reached
+  std::int64_t newton = 0;      ///< of these iterations, Newton's; -1: it led nowhere
+  std::int64_t negative = 0;    ///< pivots at most, of the factors of the increment
+  std::int64_t unstable = 0;    ///< equilibria found on that way from which the body would buckle
+};
+
+/// Name of its part in states.
+inline constexpr std::string_view rest_part = "way to rest";
+
+template <class Archive>
+void serialize(Archive& archive, RelaxationState& state) {
+  archive("at_rest", state.at_rest);
+  archive("iterations", state.iterations);
+  archive("spent", state.spent);
+  archive("increments", state.increments);
+  archive("reached", state.reached);
+  archive("increment", state.increment);
+  archive("shortened", state.shortened);
+  archive("damping", state.damping);
+  archive("pushed", state.pushed);
+  archive("largest", state.largest);
+  archive("applied", state.applied);
+  archive("unbalanced", state.unbalanced);
+  archive("best", state.best);
+  archive("best_at", state.best_at);
+  archive("newton", state.newton);
+  archive("negative", state.negative);
+  archive("unstable", state.unstable);
+}
+
+inline RelaxationState relaxation_in(const SimulationState& state) {
+  return part_of<RelaxationState>(state, rest_part);
+}
+
 /// Nonzeros of a factor up to which it fits into memory with ease.
 inline constexpr double max_factor = 5e7;
 

@@ -49,7 +49,7 @@ void FrameGuard::begin(int frame) {
   simulation_.begin_counting();
   be_lenient(false);
   SimulationState begun = simulation_.save();
-  begun.guard = state_;
+  put_part(begun, guard_part, state_);
   begun_ = std::make_shared<const SimulationState>(std::move(begun));
   if (carried > 1) divide(carried);
 }
@@ -97,7 +97,7 @@ void FrameGuard::divide(int by) {
 
 void FrameGuard::take_anew(const Retake& why) {
   simulation_.restore(*begun_);
-  state_ = begun_->guard;
+  state_ = guard_in(*begun_);
   be_lenient(false);
   divide(why.divisor);
   if (on_retake) on_retake(why);
@@ -134,16 +134,17 @@ void FrameGuard::limit_speeds() {
 
 SimulationState FrameGuard::save() const {
   SimulationState state = simulation_.save();
-  state.guard = state_;
+  put_part(state, guard_part, state_);
   if (begun_ && begun_->steps != state.steps) state.begun = begun_;
   return state;
 }
 
 void FrameGuard::restore(const SimulationState& state, int frame) {
-  if (state.guard.divisor < 1 || state.guard.divisor > max_divisor)
-    throw not_a_state("its steps are divided by " + std::to_string(state.guard.divisor));
+  const GuardState saved = guard_in(state);
+  if (saved.divisor < 1 || saved.divisor > max_divisor)
+    throw not_a_state("its steps are divided by " + std::to_string(saved.divisor));
   frame_ = frame;
-  state_ = state.guard;
+  state_ = saved;
   plan_ = plan_with(whole_, state_);
   simulation_.go_on_by(plan_);
   simulation_.restore(state);

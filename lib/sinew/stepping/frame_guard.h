@@ -22,6 +22,29 @@
 
 namespace sinew {
 
+/// State of who takes frames anew in which steps fail.
+struct GuardState {
+  std::vector<std::int32_t> divided = {};  ///< by two: a frame, by what its steps were divided
+  std::int32_t divisor = 1;                ///< of the present frame
+  bool lenient = false;                    ///< particles may snap, as long as energies balance
+  double residual = 0, turnover = 0;       ///< of the balance when that began, J
+};
+
+template <class Archive>
+void serialize(Archive& archive, GuardState& state) {
+  archive("divided", state.divided);
+  archive("divisor", state.divisor);
+  archive("lenient", state.lenient);
+  archive("residual", state.residual);
+  archive("turnover", state.turnover);
+}
+
+/// Name of its part in states.
+inline constexpr std::string_view guard_part = "guard";
+inline GuardState guard_in(const SimulationState& state) {
+  return part_of<GuardState>(state, guard_part);
+}
+
 class Simulation;
 
 /// A frame that is taken anew.

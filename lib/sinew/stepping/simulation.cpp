@@ -541,6 +541,20 @@ BoneReactions Simulation::reactions_of_bones() {
   return on;
 }
 
+namespace {
+
+/// Throws bad input unless the numbers that are of the whole body are valid.
+void check_totals(const Ledgers& ledgers, const LimitedSpeeds& limited, std::size_t particles) {
+  if (!ledgers.of_bones.finite() || !ledgers.of_world.finite() ||
+      !std::isfinite(ledgers.held_at_start))
+    throw not_a_state("its energies are not finite");
+  if (!std::isfinite(limited.energy) || !limited.impulse.allFinite() ||
+      (!limited.in_frame.empty() && limited.in_frame.size() != particles))
+    throw not_a_state("what it says of limited speeds is not valid");
+}
+
+}  // namespace
+
 SimulationState Simulation::save() const {
   SimulationState state;
   its_->stepper->save(state);
@@ -548,24 +562,29 @@ SimulationState Simulation::save() const {
   state.body = its_->checksum;
   if (its_->plan.is_even())
     state.even = {its_->plan_from, its_->plan_since, its_->plan.step(0), its_->stepping.step};
-  state.ledger = its_->ledger.entries();
-  state.world_ledger = its_->world_ledger.entries();
-  state.held_at_start = its_->held_at_start;
-  state.limited = its_->limited;
+  put_part(state, ledgers_part,
+           Ledgers{its_->ledger.entries(), its_->world_ledger.entries(), its_->held_at_start});
+  put_part(state, "limited speeds", its_->limited);
   if (its_->increments) its_->increments->save(state);
-  if (its_->dynamic)
-    state.grouping = its_->body->grouping->group, state.regrouping = its_->dynamic->state();
+  if (its_->dynamic) {
+    put_part(state, "regrouping", its_->dynamic->state());
+    put_column(state, "regrouping", "group", its_->body->grouping->group);
+  }
   return state;
 }
 
 void Simulation::restore(const SimulationState& state) {
   if (state.body != 0 && state.body != its_->checksum)
     throw not_a_state("its particles at rest, their bones or their binding are others");
-  check_totals(state, body().rest.size());
+  if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
+  const auto ledgers = part_of<Ledgers>(state, ledgers_part);
+  const auto limited = part_of<LimitedSpeeds>(state, "limited speeds");
+  check_totals(ledgers, limited, body().rest.size());
   if (its_->increments) its_->increments->restore(*its_->stepper, state);
   if (its_->dynamic) {
-    Grouping grouping = its_->dynamic->grouping_of(state.grouping);
-    its_->dynamic->restore(state.regrouping);
+    Grouping grouping =
+        its_->dynamic->grouping_of(column_of<std::int32_t>(state, "regrouping", "group"));
+    its_->dynamic->restore(part_of<RegroupingState>(state, "regrouping"));
     its_->body->grouping = std::make_shared<const Grouping>(std::move(grouping));
   }
   if (its_->plan.is_even() && state.even.step > 0) its_->plan = StepPlan(state.even.step);
@@ -579,10 +598,10 @@ void Simulation::restore(const SimulationState& state) {
   set_step(last);
   its_->stepper->restore(state);
   its_->steps = state.steps;
-  its_->ledger.restore(state.ledger, last);
-  its_->world_ledger.restore(state.world_ledger, last);
-  its_->held_at_start = state.held_at_start;
-  its_->limited = state.limited;
+  its_->ledger.restore(ledgers.of_bones, last);
+  its_->world_ledger.restore(ledgers.of_world, last);
+  its_->held_at_start = ledgers.held_at_start;
+  its_->limited = limited;
   its_->evaluated = false;
   forget_read();
 }

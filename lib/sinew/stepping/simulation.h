@@ -18,6 +18,22 @@
 
 namespace sinew {
 
+/// What limits of the particles' speed, relative to their bones, have taken from a body.
+struct LimitedSpeeds {
+  std::vector<std::int32_t> in_frame = {};  ///< times of each, by place; empty: none
+  std::int64_t times = 0;                   ///< since the start
+  double energy = 0;                        ///< lost since then, J; part of the dissipation
+  Vec3 impulse = Vec3::Zero();              ///< of their bones on them since then, N s
+};
+
+template <class Archive>
+void serialize(Archive& archive, LimitedSpeeds& state) {
+  archive("in_frame", state.in_frame);
+  archive("times", state.times);
+  archive("energy", state.energy);
+  archive("impulse", state.impulse);
+}
+
 class Relaxation;
 class StepPlan;
 class Stepper;

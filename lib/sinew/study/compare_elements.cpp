@@ -279,7 +279,7 @@ class RunInElements {
 
   void finish(const MeasureOptions& how) {
     add_supports_of_run();
-    const double radius = rest_.radius;
+    const double radius = rest_.radius();
     RunComparison& metrics = out_.metrics;
     metrics = sinew::compare({out_.name, elements_frames_, summarize(elements_frames_, radius),
                               radius, rest_.particles()},

@@ -88,21 +88,23 @@ Load pressure_load(const std::string& name, const Triangles& surface, double pre
 }
 
 void save_loads(std::span<const LoadNow> loads, SimulationState& state) {
-  for (const LoadNow& load : loads) load.pressed().save(state.pressed);
+  // Steps of each pressure, places of its corners, m, and their motions in a step, m.
+  std::vector<double> numbers;
+  for (const LoadNow& load : loads) load.pressed().save(numbers);
+  put_column(state, "pressures", "numbers", std::move(numbers));
 }
 
 void restore_loads(const SimulationState& state, std::span<LoadNow> loads) {
   std::size_t expected = 0, next = 0;
   for (const LoadNow& load : loads) expected += load.pressed().saved_size();
-  if (state.pressed.empty()) {  // of an earlier version
+  const std::vector<double> saved = column_of<double>(state, "pressures", "numbers");
+  if (saved.empty()) {  // where no step has been made
     for (LoadNow& load : loads) load.pressed().forget();
     return;
   }
-  bool fits = state.pressed.size() == expected &&
-              std::all_of(state.pressed.begin(), state.pressed.end(),
-                          [](double value) { return std::isfinite(value); });
+  bool fits = saved.size() == expected && all_finite(saved);
   for (LoadNow& load : loads) {
-    fits = fits && load.pressed().restore(state.pressed.data() + next);
+    fits = fits && load.pressed().restore(saved.data() + next);
     next += load.pressed().saved_size();
   }
   if (!fits) throw not_a_state("it has other pressures");

@@ -64,29 +64,31 @@ Vec3 SlidingContacts::force(std::int32_t id, std::span<const Touch> touches, dou
 }
 
 void SlidingContacts::save(SimulationState& state) const {
+  std::vector<std::int32_t> pairs;  // two ids each
+  std::vector<double> stretches;    // three numbers each, m
   for (std::size_t id = 0; id < stretched_.size(); ++id)
     for (const Spring& spring : stretched_[id]) {
-      state.sliding_pairs.insert(state.sliding_pairs.end(),
-                                 {static_cast<std::int32_t>(id), spring.other});
-      state.sliding.insert(state.sliding.end(), spring.stretch.begin(), spring.stretch.end());
+      pairs.insert(pairs.end(), {static_cast<std::int32_t>(id), spring.other});
+      stretches.insert(stretches.end(), spring.stretch.begin(), spring.stretch.end());
     }
+  put_column(state, "friction", "pairs", std::move(pairs));
+  put_column(state, "friction", "stretches", std::move(stretches));
 }
 
 void SlidingContacts::restore(const SimulationState& state) {
-  const std::size_t springs = state.sliding_pairs.size() / 2;
+  const auto pairs = column_of<std::int32_t>(state, "friction", "pairs");
+  const auto stretches = column_of<double>(state, "friction", "stretches");
+  const std::size_t springs = pairs.size() / 2;
   const auto known = [&](std::int32_t id) {
     return id >= 0 && static_cast<std::size_t>(id) < stretched_.size();
   };
-  if (state.sliding.size() != 3 * springs || state.sliding_pairs.size() != 2 * springs ||
-      !std::all_of(state.sliding_pairs.begin(), state.sliding_pairs.end(), known) ||
-      !std::all_of(state.sliding.begin(), state.sliding.end(),
-                   [](double value) { return std::isfinite(value); }))
+  if (stretches.size() != 3 * springs || pairs.size() != 2 * springs ||
+      !std::all_of(pairs.begin(), pairs.end(), known) || !all_finite(stretches))
     throw not_a_state("it has contacts of other particles");
   for (std::vector<Spring>& one : stretched_) one.clear();
   for (std::size_t k = 0; k < springs; ++k)
-    stretched_[static_cast<std::size_t>(state.sliding_pairs[2 * k])].push_back(
-        {state.sliding_pairs[2 * k + 1],
-         Vec3(state.sliding[3 * k], state.sliding[3 * k + 1], state.sliding[3 * k + 2])});
+    stretched_[static_cast<std::size_t>(pairs[2 * k])].push_back(
+        {pairs[2 * k + 1], Vec3(stretches.data() + 3 * k)});
 }
 
 }  // namespace sinew

@@ -2,7 +2,7 @@
 // The members of what engines read, for archive.h.
 #pragma once
 
-#include <sinew/engine/detail/archive.h>
+#include <sinew/core/archive.h>
 #include <sinew/engine/detail/serialize_world.h>
 #include <sinew/engine/engine_files.h>
 
@@ -109,9 +109,7 @@ template <class Archive>
 void serialize(Archive& archive, EngineMoment& moment) {
   archive(moment.steps);
   archive(moment.kicked);
-  archive(moment.ledger);
-  archive(moment.world_ledger);
-  archive(moment.held_at_start);
+  archive(moment.ledgers);
   archive(moment.particles);
   archive(moment.in_frame);
   archive(moment.engine);

@@ -2,29 +2,10 @@
 // The members of a world as engines know it, for archive.h.
 #pragma once
 
-#include <sinew/engine/detail/archive.h>
+#include <sinew/core/archive.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
-
-/// Makes it the alternative of that number.
-template <std::size_t k = 0, class... Forms>
-void choose(std::variant<Forms...>& value, std::size_t form) {
-  if constexpr (k == sizeof...(Forms))
-    throw bad_input("it is truncated or damaged", "start the run again");
-  else if (k == form)
-    value.template emplace<k>();
-  else
-    choose<k + 1>(value, form);
-}
-
-template <class Archive, class... Forms>
-void serialize(Archive& archive, std::variant<Forms...>& value) {
-  auto form = static_cast<std::uint8_t>(value.index());
-  archive(form);
-  if (form != value.index()) choose(value, form);
-  std::visit([&](auto& one) { serialize(archive, one); }, value);
-}
 
 template <class Archive>
 void serialize(Archive& archive, PlaneShape& plane) {

@@ -386,26 +386,28 @@ void GroupMotions<Real>::constrain(Forces& forces, const std::vector<std::uint32
   forces.group = std::move(constraint);
 }
 
-/// Writes, of each group, how many terms it has, and their coefficients.
 template <class Real>
 void GroupMotions<Real>::save(SimulationState& state) const {
-  state.groups.clear();
+  std::vector<double>
+      saved;  // number of terms of each group, then those of places, m, and velocities
   for (std::size_t g = 0; g < motions_.size(); ++g) {
     const int terms = (*shapes_)[g].terms();
-    state.groups.push_back(terms);
+    saved.push_back(terms);
     for (const Coefficients* all : {&motions_[g].x, &motions_[g].v})
       for (int axis = 0; axis < 3; ++axis)
-        for (int k = 0; k < terms; ++k) state.groups.push_back((*all)(k, axis));
+        for (int k = 0; k < terms; ++k) saved.push_back((*all)(k, axis));
   }
+  put_column(state, "groups", "terms", std::move(saved));
 }
 
 template <class Real>
 void GroupMotions<Real>::restore(const SimulationState& state) {
+  const std::vector<double> saved = column_of<double>(state, "groups", "terms");
   std::size_t at = 0;
   const auto next = [&] {
-    if (at == state.groups.size()) throw not_a_state("it has other groups");
-    if (!std::isfinite(state.groups[at])) throw not_a_state("the motion of a group is not finite");
-    return state.groups[at++];
+    if (at == saved.size()) throw not_a_state("it has other groups");
+    if (!std::isfinite(saved[at])) throw not_a_state("the motion of a group is not finite");
+    return saved[at++];
   };
   for (std::size_t g = 0; g < motions_.size(); ++g) {
     const int terms = (*shapes_)[g].terms();
@@ -414,7 +416,7 @@ void GroupMotions<Real>::restore(const SimulationState& state) {
       for (int axis = 0; axis < 3; ++axis)
         for (int k = 0; k < terms; ++k) (*all)(k, axis) = next();
   }
-  if (at != state.groups.size()) throw not_a_state("it has other groups");
+  if (at != saved.size()) throw not_a_state("it has other groups");
   ++moment_;
 }
 

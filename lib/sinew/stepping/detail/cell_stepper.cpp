@@ -228,7 +228,7 @@ void CellStepper::save(SimulationState& state) {
   references_.save(state);
   save_loads(loads_, state);
   if (!solid_) return;
-  state.rest_length = solid_->rest_lengths();
+  put_column(state, "bonds of cells", "rest", solid_->rest_lengths());
   solid_->branches().save(state);
 }
 
@@ -241,8 +241,8 @@ void CellStepper::restore(const SimulationState& state) {
       throw not_a_state("a particle is far away from the body");
   if (solid_) {
     solid_->branches().restore(state);
-    solid_->restore(state.rest_length);
-  } else if (!state.rest_length.empty()) {
+    solid_->restore(column_of<double>(state, "bonds of cells", "rest"));
+  } else if (find_part(state, "bonds of cells") != nullptr) {
     throw not_a_state("it has bonds");
   }
   sliding_.restore(state);

@@ -388,12 +388,13 @@ void ListStepper<Real>::save(SimulationState& state) {
   surroundings_.save(state);
   brakes_.save(state);
   state.kicked = kicked_;
-  state.mean_when_sorted = mean_when_sorted_;
+  put_column(state, "lists", "mean_when_sorted", std::vector{mean_when_sorted_});
 }
 
 template <class Real>
 void ListStepper<Real>::restore(const SimulationState& state) {
-  if (!state.rest_length.empty()) throw not_a_state("it is of cells");
+  if (find_part(state, "bonds of cells") != nullptr) throw not_a_state("it is of cells");
+  const auto sorted = column_of<double>(state, "lists", "mean_when_sorted");
   ParticleLayout<Real> layout = layout_;
   layout.restore(state);
   auto bonds = bond_lists<Real>(*body_, mass_, layout.id(), layout.units());
@@ -407,7 +408,7 @@ void ListStepper<Real>::restore(const SimulationState& state) {
   groups_.restore(state);
   surroundings_.restore(state);
   kicked_ = state.kicked;
-  mean_when_sorted_ = state.mean_when_sorted;
+  mean_when_sorted_ = sorted.empty() ? 0 : sorted.front();
   steps_ = state.steps;
   order_checked_ = -1;
   stepped_ = false;

@@ -51,7 +51,7 @@ void LoadIncrements::begin(Stepper& stepper) {
   SimulationState state;
   stepper.save(state);
   state.steps = steps_;
-  state.relaxation = relaxation_.state();
+  put_part(state, rest_part, relaxation_.state());
   begun_ = std::make_shared<const SimulationState>(std::move(state));
 }
 
@@ -85,7 +85,7 @@ bool LoadIncrements::is_given_up(Stepper& stepper, double times) {
   found.strain /= times;
   if (times > 1) found.inverted = 0;  // it may come back
   if (!relaxation_.is_too_large(found, strain_.inverted_at_begin())) return false;
-  go_back(stepper, relaxation_.shorter(begun_->relaxation, found.strain));
+  go_back(stepper, relaxation_.shorter(relaxation_in(*begun_), found.strain));
   return true;
 }
 
@@ -99,7 +99,7 @@ void LoadIncrements::go_back(Stepper& stepper, const RelaxationState& to) {
 
 /// Starts again where the increment began: half of it, or without Newton's method.
 void LoadIncrements::try_otherwise(Stepper& stepper) {
-  go_back(stepper, relaxation_.otherwise(begun_->relaxation));
+  go_back(stepper, relaxation_.otherwise(relaxation_in(*begun_)));
 }
 
 // Newton's method.
@@ -113,7 +113,7 @@ bool LoadIncrements::predict(Stepper& stepper) {
   stepper.place(found->positions, Stepper::Move::far);
   const IncrementStrain strained = strain_.since(positions(stepper));  // held ones at its end
   if (relaxation_.is_too_large(strained, strain_.inverted_at_begin())) {
-    go_back(stepper, relaxation_.shorter(begun_->relaxation, strained.strain));
+    go_back(stepper, relaxation_.shorter(relaxation_in(*begun_), strained.strain));
     return true;
   }
   if (const double part = max_strain_of_increment / strained.strain; part < 1) {
@@ -162,13 +162,13 @@ Relaxation::Outcome LoadIncrements::solve(Stepper& stepper) {
 }
 
 void LoadIncrements::save(SimulationState& state) const {
-  state.relaxation = relaxation_.state();
+  put_part(state, rest_part, relaxation_.state());
   state.begun = begun_;
 }
 
 void LoadIncrements::restore(Stepper& stepper, const SimulationState& state) {
   const auto go_to = [&](const SimulationState& there) {
-    relaxation_.restore(there.relaxation);  // what supports hold is where they are then
+    relaxation_.restore(relaxation_in(there));  // what supports hold is where they are then
     stepper.set_step(relaxation_.step());
     stepper.restore(there);
   };

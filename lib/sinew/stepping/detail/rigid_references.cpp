@@ -207,16 +207,18 @@ bool RigidReferences::follow_cracks(std::int64_t steps, const Stepper& stepper) 
 }
 
 void RigidReferences::save(SimulationState& state) const {
-  state.pieces = piece_;
-  state.broken_ends = broken_;
+  put_column(state, "pieces", "label", piece_);
+  put_column(state, "pieces", "broken", std::vector{broken_});
 }
 
 void RigidReferences::restore(const SimulationState& state) {
   if (!damping_) return;
-  if (!state.pieces.empty() && state.pieces.size() != body_->rest.size())
-    throw not_a_state("it has pieces of " + std::to_string(state.pieces.size()) + " particles");
-  piece_ = state.pieces;
-  broken_ = state.broken_ends;
+  auto label = column_of<std::uint32_t>(state, "pieces", "label");
+  const auto broken = column_of<std::int64_t>(state, "pieces", "broken");
+  if (!label.empty() && label.size() != body_->rest.size())
+    throw not_a_state("it has pieces of " + std::to_string(label.size()) + " particles");
+  piece_ = std::move(label);
+  broken_ = broken.empty() ? 0 : broken.front();
   set_damping(piece_.empty() ? body_->rigid_damping
                              : std::make_shared<const RigidDamping>(
                                    cut(*body_->rigid_damping, *body_, piece_)));

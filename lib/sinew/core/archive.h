@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values of any type as bytes, in this machine's byte order, for programs that work together in one
-// run. A struct needs one function, for both directions: serialize(archive, value) calls archive
-// for each of its members.
+// Values of any type as bytes, in this machine's byte order: for checkpoints, and for programs that
+// work together in one run. A struct needs one function, for both directions:
+// serialize(archive, value) calls archive for each of its members.
 //
 //     const std::string bytes = archived(setup);
 //     const auto setup = unarchived<EngineSetup>(bytes);
@@ -13,6 +13,8 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <sinew/core/error.h>
@@ -25,12 +27,16 @@ template <class Value>
 concept Plain = std::is_arithmetic_v<Value> || std::is_enum_v<Value> ||
     std::is_same_v<Value, Vec3> || std::is_same_v<Value, Mat3> || std::is_same_v<Value, Quat>;
 
+/// Hands bytes to sink(const void*, std::size_t).
+template <class Sink>
 class ArchiveWriter {
  public:
+  explicit ArchiveWriter(Sink sink) : sink_(std::move(sink)) {}
+
   template <class Value>
   void operator()(const Value& value) {
     if constexpr (Plain<Value>)
-      bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+      sink_(&value, sizeof value);
     else if constexpr (requires { value.has_value(); })
       put_optional(value);
     else if constexpr (requires { value.size(), value.data(); })
@@ -43,7 +49,6 @@ class ArchiveWriter {
   void operator()(std::string_view, const Value& value) {
     (*this)(value);
   }
-  std::string take() { return std::move(bytes_); }
 
  private:
   template <class Value>
@@ -55,17 +60,18 @@ class ArchiveWriter {
   void put_list(const List& list) {
     (*this)(std::uint64_t{list.size()});
     if constexpr (Plain<typename List::value_type>)
-      bytes_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof *list.data());
+      sink_(list.data(), list.size() * sizeof *list.data());
     else
       for (const auto& one : list) (*this)(one);
   }
 
-  std::string bytes_;
+  Sink sink_;
 };
 
 class ArchiveReader {
  public:
-  explicit ArchiveReader(std::string_view bytes) : bytes_(bytes) {}
+  explicit ArchiveReader(std::string_view bytes, const char* cure = "start the run again")
+      : bytes_(bytes), cure_(cure) {}
 
   template <class Value>
   void operator()(Value& value) {
@@ -83,10 +89,9 @@ class ArchiveReader {
     (*this)(value);
   }
   bool done() const { return bytes_.empty(); }
+  Error torn() const { return bad_input("it is truncated or damaged", cure_); }
 
  private:
-  static Error torn() { return bad_input("it is truncated or damaged", "start the run again"); }
-
   void take(void* to, std::size_t count) {
     if (count > bytes_.size()) throw torn();
     if (count > 0) std::memcpy(to, bytes_.data(), count);
@@ -114,13 +119,36 @@ class ArchiveReader {
   }
 
   std::string_view bytes_;
+  const char* cure_;
 };
+
+/// Makes it the alternative of that number.
+template <std::size_t k = 0, class... Forms>
+void choose(std::variant<Forms...>& value, std::size_t form) {
+  if constexpr (k == sizeof...(Forms))
+    throw bad_input("it is truncated or damaged", "start the run again");
+  else if (k == form)
+    value.template emplace<k>();
+  else
+    choose<k + 1>(value, form);
+}
+
+template <class Archive, class... Forms>
+void serialize(Archive& archive, std::variant<Forms...>& value) {
+  auto form = static_cast<std::uint8_t>(value.index());
+  archive(form);
+  if (form != value.index()) choose(value, form);
+  std::visit([&](auto& one) { archive(one); }, value);
+}
 
 template <class Value>
 std::string archived(const Value& value) {
-  ArchiveWriter writer;
+  std::string bytes;
+  ArchiveWriter writer([&bytes](const void* from, std::size_t count) {
+    bytes.append(static_cast<const char*>(from), count);
+  });
   writer(value);
-  return writer.take();
+  return bytes;
 }
 
 /// Throws bad input where the bytes are no such value.
