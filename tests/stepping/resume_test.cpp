@@ -2,6 +2,7 @@
 // A simulation that is saved and restored continues with the bits of one that never stopped,
 // wherever it stops and on any number of threads, while particles are sorted and units chosen
 // again.
+#include <sinew/body/ledger.h>
 #include <sinew/core/parallel.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include <sinew/body/body.h>
+#include <sinew/body/ledger.h>
 #include <sinew/body/step_plan.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/engine/particle_rows.h>

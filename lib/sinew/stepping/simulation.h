@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <sinew/body/forces.h>
+#include <sinew/core/energies.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/kernel/instruction_set.h>
 
