@@ -7,6 +7,7 @@
 
 #include <sinew/core/parallel.h>
 #include <sinew/groups/dynamic/dynamic_groups.h>
+#include <sinew/stepping/detail/dynamic_grouping.h>
 
 #include "support/expect_error.h"
 #include "support/grouped_bar.h"
