@@ -320,7 +320,11 @@ SceneWorld scene_world(const RunFiles& run) {
   const BodyFile& body = run.ids.empty() ? run.body : read;
   SceneFiles files;
   files.surface = run.surface;
-  Body bound{positions_of(body.particles), run.skeleton, bound_to(*body.bone), run.material};
+  Body bound;
+  bound.rest = positions_of(body.particles);
+  bound.skeleton = run.skeleton;
+  bound.binding = bound_to(*body.bone);
+  bound.material = run.material;
   if (!settings.world.muscles.empty()) {  // they pull with all weights of their bones
     files = read_rig_files(settings);
     files.surface = run.surface;
