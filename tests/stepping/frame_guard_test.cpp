@@ -63,8 +63,8 @@ struct Outcome {
 
 Outcome outcome_of(Simulation& simulation, const FrameGuard& guard) {
   const Energies now = simulation.energies();
-  return {state_hash(simulation.particles()), guard.state(), simulation.limited(),
-          now.stored() - now.work() + now.dissipation, now.dissipation};
+  return {state_hash(simulation.particles()), guard.state(), simulation.limited(), now.balance(),
+          now.dissipation};
 }
 
 StepPlan plan_of(double step) { return StepPlan(step, steps_per_frame, {}); }

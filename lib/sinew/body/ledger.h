@@ -36,6 +36,10 @@ struct Ledgers {
   LedgerEntries of_bones;
   LedgerEntries of_world;    ///< obstacles, fields, muscles and pins
   double held_at_start = 0;  ///< kinetic energy of what pins hold, J
+
+  bool finite() const {
+    return of_bones.finite() && of_world.finite() && std::isfinite(held_at_start);
+  }
 };
 
 /// Name of their part.

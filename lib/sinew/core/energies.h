@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ledger of a body's energy, and what forces leave unanswered.
 //
-//     const double residual = energies.stored() - energies.work() + energies.dissipation;
+//     const double residual = energies.balance() - at_start.balance();
 #pragma once
 
 #include <limits>
@@ -22,6 +22,8 @@ struct Energies {
 
   double stored() const { return kinetic + pair + bone + gravity + contact; }
   double work() const { return work_of_bones + work_of_world; }
+  /// Constant during a motion, up to the errors of its steps.
+  double balance() const { return stored() - work() + dissipation; }
 };
 
 /// Size of what is left of all forces on a body from outside, and of their moments about its

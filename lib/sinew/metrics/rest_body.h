@@ -37,7 +37,7 @@ struct RestForces {
   /// Factors on bonds near the surface and weights of volumes; none: found where forces are asked
   /// for first, which may take seconds, from the three below.
   std::shared_ptr<const BondFactors> factors = {};
-  // Of each particle; each may be empty.
+  // Values per particle; each may be empty.
   std::vector<double> stiffness = {};         ///< modulus of its material over the body's
   std::vector<double> volume_share = {};      ///< volume around it over that of one inside
   std::vector<double> volume_stiffness = {};  ///< K_v, Pa; empty: the material's

@@ -6,7 +6,6 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/triangles.h>
-#include <sinew/scene/part_region.h>
 #include <sinew/scene/particle_parts.h>
 
 namespace sinew {

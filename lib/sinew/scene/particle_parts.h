@@ -25,6 +25,14 @@ std::string extent_text(const Points& points);
 std::vector<std::uint32_t> ids_of(const Settings& settings, const std::string& path,
                                   const std::vector<double>& numbers, std::size_t particles);
 
+/// Whether a place (m) at rest is in the box, the ball, in front of the plane and around the axis
+/// of a part, as far as it has them; `slack` (m) widens them.
+bool is_in_region(const PartSettings& part, const Vec3& place, double slack = 0);
+
+/// Whether a face at rest looks where a part asks for: `area` is its normal, of any length, and
+/// `center` (m) a point on it.
+bool faces_as(const PartSettings& part, const Vec3& area, const Vec3& center);
+
 class ParticleParts {
  public:
   /// `surface`: of the body, as filled; only what is on it needs one. `component`: of each

@@ -105,7 +105,7 @@ void FrameGuard::take_anew(const Retake& why) {
 
 FrameGuard::Balanced FrameGuard::balance() {
   const Energies now = simulation_.energies();
-  return {now.stored() - now.work() + now.dissipation, now.dissipation + std::abs(now.work())};
+  return {now.balance(), now.dissipation + std::abs(now.work())};
 }
 
 /// Energy of their motion relative to their bones, in the step that failed, J.

@@ -541,20 +541,6 @@ BoneReactions Simulation::reactions_of_bones() {
   return on;
 }
 
-namespace {
-
-/// Throws bad input unless the numbers that are of the whole body are valid.
-void check_totals(const Ledgers& ledgers, const LimitedSpeeds& limited, std::size_t particles) {
-  if (!ledgers.of_bones.finite() || !ledgers.of_world.finite() ||
-      !std::isfinite(ledgers.held_at_start))
-    throw not_a_state("its energies are not finite");
-  if (!std::isfinite(limited.energy) || !limited.impulse.allFinite() ||
-      (!limited.in_frame.empty() && limited.in_frame.size() != particles))
-    throw not_a_state("what it says of limited speeds is not valid");
-}
-
-}  // namespace
-
 SimulationState Simulation::save() const {
   SimulationState state;
   its_->stepper->save(state);
@@ -579,7 +565,9 @@ void Simulation::restore(const SimulationState& state) {
   if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
   const auto ledgers = part_of<Ledgers>(state, ledgers_part);
   const auto limited = part_of<LimitedSpeeds>(state, "limited speeds");
-  check_totals(ledgers, limited, body().rest.size());
+  if (!ledgers.finite()) throw not_a_state("its energies are not finite");
+  if (!limited.is_of(body().rest.size()))
+    throw not_a_state("what it says of limited speeds is not valid");
   if (its_->increments) its_->increments->restore(*its_->stepper, state);
   if (its_->dynamic) {
     Grouping grouping =

@@ -25,6 +25,12 @@ struct LimitedSpeeds {
   std::int64_t times = 0;                   ///< since the start
   double energy = 0;                        ///< lost since then, J; part of the dissipation
   Vec3 impulse = Vec3::Zero();              ///< of their bones on them since then, N s
+
+  /// Whether it may be of a body of so many particles.
+  bool is_of(std::size_t particles) const {
+    return std::isfinite(energy) && impulse.allFinite() &&
+           (in_frame.empty() || in_frame.size() == particles);
+  }
 };
 
 template <class Archive>
