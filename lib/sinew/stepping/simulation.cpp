@@ -11,7 +11,6 @@
 #include <sinew/body/solid.h>
 #include <sinew/body/step_plan.h>
 #include <sinew/core/error.h>
-#include <sinew/core/parallel.h>
 #include <sinew/core/text.h>
 #include <sinew/groups/make_grouping.h>
 #include <sinew/stepping/detail/cell_stepper.h>
@@ -19,13 +18,12 @@
 #include <sinew/stepping/detail/list_stepper.h>
 #include <sinew/stepping/detail/load_increments.h>
 #include <sinew/stepping/detail/speed_limits.h>
+#include <sinew/stepping/detail/step_totals.h>
 #include <sinew/stepping/equilibrium.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
 namespace {
-
-constexpr std::size_t particles_per_sum = 512;
 
 Particles& checked(Particles& particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
@@ -39,10 +37,6 @@ Particles& checked(Particles& particles) {
 bool moved_less(const Offender& a, const Offender& b) {
   return a.finite != b.finite ? a.finite : a.moved < b.moved;
 }
-
-}  // namespace
-
-namespace {
 
 MakeStepper built_in(kernel::InstructionSet instructions) {
   return [instructions](std::shared_ptr<const Body> body, const Stepping& stepping,
@@ -468,31 +462,10 @@ Unbalanced Simulation::unbalanced() {
 
 Energies Simulation::energies() {
   evaluate();
-  const Particles& now = particles();
-  // Velocities are half a step behind the positions, except in velocity Verlet.
-  const double behind =
-      its_->stepping.integrator == Integrator::velocity_verlet ? 0 : its_->stepping.step / 2;
-  Energies energies;
-  energies.kinetic =
-      parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
-        double sum = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-          sum += mass(i) / 2 * (now.velocity(i) + behind * acceleration(i)).squaredNorm();
-        }
-        return sum;
-      });
-  energies.gravity =
-      parallel_sum(now.size(), particles_per_sum, [&](std::size_t begin, std::size_t end) {
-        double sum = 0;
-        for (std::size_t i = begin; i < end; ++i)
-          sum -= mass(i) * its_->stepping.gravity.dot(now.position(i));
-        return sum;
-      });
-  energies.pair = its_->balance.pair_energy;
-  energies.bone = its_->balance.bone_energy;
+  Energies energies =
+      energies_at({*its_->body, particles(), its_->forces, its_->balance, its_->stepping});
   energies.work_of_bones = its_->ledger.work_until(its_->balance.power);
   energies.dissipation = its_->ledger.dissipation_until(its_->balance.lost) + lost_by_merging();
-  energies.contact = its_->balance.contact_energy;
   if (its_->increments) {  // no moment follows from the one before by a motion
     energies.work_of_bones = energies.work_of_world = energies.dissipation =
         std::numeric_limits<double>::quiet_NaN();

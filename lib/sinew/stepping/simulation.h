@@ -73,6 +73,8 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
+  // What it is to do: before its first step, or from now on.
+
   /// Makes steps of the sizes in the plan, from the start on. Call it before the first step.
   void follow(StepPlan plan);
 
@@ -80,15 +82,9 @@ class Simulation {
   /// moment after another; time() is that of its bones and surroundings. Call it before the first
   /// step. Throws bad input for the reference stepper.
   void relax(LoadSteps steps);
-  /// What it has come to; none where it was not asked to.
-  const Relaxation* relaxation() const;
-
   /// Changes groups of particles as the body moves, from now on. Throws bad input for the reference
   /// stepper.
   void enable_dynamic_groups(const DynamicOptions& options);
-  /// Lost where particles joined groups, J; part of the dissipation.
-  double lost_by_merging() const;
-  std::int64_t regroupings() const;
 
   /// Moves the bones so from now on; at the present moment the pose should be the same. Throws bad
   /// input where there are groups of particles, static or dynamic: they are made for one motion.
@@ -101,6 +97,8 @@ class Simulation {
   /// become of them stay. Throws bad input for another model, size or mass of particles, other
   /// neighbors at rest, and where there are groups of particles.
   void set_material(const Material& material);
+
+  // Motion.
 
   /// Advances by one step, or so many, between which nothing is read. Throws Error (unstable) that
   /// names step, particle, cause and a cure when a value is not finite or a particle moves over
@@ -130,6 +128,8 @@ class Simulation {
   const LimitedSpeeds& limited() const;
   void begin_counting();  ///< of `in_frame`
 
+  // The present moment.
+
   double time() const;  ///< s
   std::int64_t steps() const;
   const Body& body() const;
@@ -137,7 +137,6 @@ class Simulation {
   const Particles& particles() const;
   const Pose& pose() const;  ///< until the next step
 
-  /// At the present moment.
   const Forces& forces();
   /// particles() and forces() without a copy, for a caller who keeps them; both are found anew when
   /// they are asked for again.
@@ -153,6 +152,16 @@ class Simulation {
   /// balance closes to second order in the step.
   Energies energies();
 
+  // What has become of bonds, groups and lists, and of a body that is brought to rest.
+
+  /// Way to rest; none of a body that moves.
+  const Relaxation* relaxation() const;
+  /// Energy lost where particles joined groups, J; part of the dissipation.
+  double lost_by_merging() const;
+  std::int64_t regroupings() const;
+  /// How often neighbor lists were built; zeros for the cell stepper.
+  ListCounts list_counts() const;
+
   /// Broken bonds of each particle, in the order of the particles; none for the paper's model,
   /// which has no bonds.
   std::vector<std::int32_t> broken_bonds() const;
@@ -161,6 +170,8 @@ class Simulation {
   /// the neighbors at rest by id, ascending. Zeros for a material without bonds.
   std::vector<double> rest_of_bonds(const NeighborLists& nearest,
                                     const NeighborLists& second) const;
+
+  // Reactions.
 
   /// The force of the body on each obstacle of its world at the present moment, about its frame.
   std::vector<Reaction> reactions_of_obstacles();
@@ -171,14 +182,13 @@ class Simulation {
   /// The force of the body on each bone at the present moment, about its head.
   BoneReactions reactions_of_bones();
 
+  // States.
+
   /// The state from which a simulation continues with the same bits, on any number of threads.
   SimulationState save() const;
   /// Continues from that moment of a simulation of the same body and stepping; the motion may be
   /// another. Throws bad input for a state that does not fit.
   void restore(const SimulationState& state);
-
-  /// How often neighbor lists were built; zeros for the cell stepper.
-  ListCounts list_counts() const;
 
  private:
   struct Impl;

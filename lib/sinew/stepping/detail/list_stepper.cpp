@@ -12,6 +12,7 @@
 #include <sinew/material/laws.h>
 #include <sinew/stepping/detail/force_probe.h>
 #include <sinew/stepping/detail/law_functions.h>
+#include <sinew/stepping/detail/step_totals.h>
 
 namespace sinew {
 namespace {
@@ -213,19 +214,11 @@ void ListStepper<Real>::read(BondRest& rest) const {
 
 template <class Real>
 StepSums ListStepper<Real>::sums_of_totals() const {
-  const double watts = mass_ * layout_.units().length * layout_.units().length /
-                       (layout_.units().time * layout_.units().time * layout_.units().time);
-  StepSums sums;
-  for (const kernel::Totals& piece : totals_) {  // in this order, whichever thread made them
-    sums.power += piece.power;
-    sums.lost += piece.lost;
-    sums.world_power += piece.driven_power;
-  }
+  StepSums sums = sums_of(totals_, layout_.units(), mass_);
   const WorldSums world = surroundings_.sums();
-  sums.power *= watts;
   sums.power += groups_.sums().power;
-  sums.lost = sums.lost * watts + world.lost + groups_.sums().lost;
-  sums.world_power = sums.world_power * watts + world.power;
+  sums.lost = sums.lost + world.lost + groups_.sums().lost;
+  sums.world_power += world.power;
   sums.held_kinetic = world.held_kinetic;
   return sums;
 }
@@ -537,26 +530,10 @@ void ListStepper<Real>::place(const Points& positions, Move move) {
 
 template <class Real>
 Imbalance ListStepper<Real>::imbalance() const {
-  const double L = layout_.units().length, T = layout_.units().time;
-  Imbalance sum;
-  double pulled = 0;
-  for (const kernel::Totals& piece : totals_) {  // in this order, whichever thread made them
-    sum.aa += piece.relaxing.aa;
-    sum.av += piece.relaxing.av;
-    sum.vv += piece.relaxing.vv;
-    sum.unbalanced += piece.relaxing.unbalanced;
-    pulled += piece.relaxing.pulled;
-    sum.flowing += piece.lost;
-  }
-  sum.aa *= L * L / (T * T * T * T);
-  sum.av *= L * L / (T * T * T);
-  sum.vv *= L * L / (T * T);
-  const double newtons = mass_ * L / (T * T);
-  sum.flowing *= newtons * L / T;
-  sum.unbalanced *= newtons;
+  Imbalance sum = imbalance_of(totals_, layout_.units(), mass_);
   const double weight = total_mass(*body_, mass_) * stepping_.gravity.norm();
   const double loaded = surroundings_.loaded();
-  sum.applied = std::max({newtons * pulled / 2, surroundings_.sums().applied + loaded, weight});
+  sum.applied = std::max({sum.applied, surroundings_.sums().applied + loaded, weight});
   sum.loaded = loaded + weight;
   for (const Reaction& support : surroundings_.support_reactions())
     sum.applied = std::max({sum.applied, support.force.norm(), support.moment.norm() / extent_});
