@@ -204,22 +204,9 @@ Vec3 Simulation::acceleration(std::size_t i) const {
   return its_->forces.total(i) / mass(i) + its_->stepping.gravity;
 }
 
-/// Adds so many times `gain`, of a particle by place; m/s.
 void Simulation::add_to_velocities(double by, const std::function<Vec3(std::size_t i)>& gain) {
   SimulationState state = save();
-  const double unit = std::holds_alternative<MovingInSingle>(state.moving)
-                          ? state.fixed_point_units.length / its_->unit_of_time
-                          : 1;
-  const auto shift = [&](auto& moving) {
-    for (std::size_t k = 0; k < moving.x[0].size(); ++k) {
-      const Vec3 added = by / unit * gain(state.order.empty() ? k : state.order[k]);
-      for (int axis = 0; axis < 3; ++axis) {
-        auto& v = moving.v[axis][k];
-        v = static_cast<std::remove_reference_t<decltype(v)>>(v + added[axis]);
-      }
-    }
-  };
-  std::visit(shift, state.moving);
+  sinew::add_to_velocities(state, by, its_->unit_of_time, gain);
   its_->stepper->restore(state);
   its_->stepper->fit_groups();
   forget_read();

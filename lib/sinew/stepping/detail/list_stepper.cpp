@@ -72,11 +72,6 @@ void ListStepper<Real>::find_slots() {
 }
 
 template <class Real>
-void ListStepper<Real>::place_bones(const Pose& pose) {
-  bones_ = bones_now<Real>(*body_, pose, slots_.center, mass_, layout_.units());
-}
-
-template <class Real>
 kernel::Bindings<Real> ListStepper<Real>::bindings() const {
   const auto& [first, slots, attachments, weights, center] = slots_;
   return {first.data(), slots.data(), attachments.data(), weights.data(), bones_.data()};
@@ -151,7 +146,7 @@ kernel::Step<Real> ListStepper<Real>::begin(const TimedPose& moment, Points* wor
                 [this](std::size_t piece) { return lists_.meets_others(piece); });
   groups_.place(layout_.now, layout_.units());
   if (!whole) groups_.activate(layout_.now, layout_.units());
-  place_bones(pose);
+  bones_ = bones_now<Real>(*body_, pose, slots_.center, mass_, layout_.units());
   brakes_.find(steps_, moment, *this, layout_.now, layout_.units());
   surroundings_.begin(pose, time, layout_.now, layout_.units(), lists_, world_forces);
   if (has_muscles(*body_))
@@ -205,11 +200,6 @@ std::vector<std::int32_t> ListStepper<Real>::broken_bonds() const {
   for (std::size_t k = 0; k < broken.size() && !bonds_.broken.empty(); ++k)
     broken[layout_.caller()[k]] = bonds_.broken[k];
   return broken;
-}
-
-template <class Real>
-void ListStepper<Real>::read(BondRest& rest) const {
-  bonds_.read(layout_.id(), layout_.units(), rest);
 }
 
 template <class Real>
@@ -312,13 +302,8 @@ void ListStepper<Real>::follow_units() {
 
 template <class Real>
 void ListStepper<Real>::make_lists() {
-  lists_.make(layout_.now, subpieces(), bonds_, layout_.units(),
+  lists_.make(layout_.now, subpieces_of(*body_, layout_.id(), block), bonds_, layout_.units(),
               groups_.seen(layout_.now, layout_.units()));
-}
-
-template <class Real>
-Subpieces ListStepper<Real>::subpieces() const {
-  return subpieces_of(*body_, layout_.id(), block);
 }
 
 /// What keeps its neighbors keeps its order. A second check before the same step, as in a run
@@ -339,7 +324,7 @@ void ListStepper<Real>::sort() {
   const double unsorted = before.mean_of_outer();
   layout_.reorder(order);
   lists_.let_pass(*body_, layout_.id());
-  lists_.make_some(layout_.now, subpieces(), bonds_, layout_.units());
+  lists_.make_some(layout_.now, subpieces_of(*body_, layout_.id(), block), bonds_, layout_.units());
   const double sorted = lists_.mean_of_outer();
   mean_when_sorted_ = std::min(sorted, unsorted);
   if (sorted > 0.95 * unsorted) {
@@ -512,11 +497,6 @@ StepSums ListStepper<Real>::try_step(const TimedPose& moment, double keep) {
   StepSums sums = run(now, moment.pose);
   sums.imbalance = imbalance();
   return sums;
-}
-
-template <class Real>
-void ListStepper<Real>::halt() {
-  layout_.now.halt();
 }
 
 template <class Real>

@@ -39,7 +39,7 @@ class ListStepper final : public Stepper {
   void read(const TimedPose& now, Particles& particles) override;
   WorldReactions reactions() const override;
   std::vector<std::int32_t> broken_bonds() const override;
-  void read(BondRest& rest) const override;
+  void read(BondRest& rest) const override { bonds_.read(layout_.id(), layout_.units(), rest); }
   ListCounts counts() const override;
   void save(SimulationState& state) override;
   void restore(const SimulationState& state) override;
@@ -48,7 +48,7 @@ class ListStepper final : public Stepper {
   bool relaxes() const override { return !groups_.any(); }
   StepSums try_step(const TimedPose& now, double keep) override;
   void accept() override;
-  void halt() override;
+  void halt() override { layout_.now.halt(); }
   void place(const Points& positions, Move move) override;
 
   bool has_groups() const override { return true; }
@@ -65,7 +65,6 @@ class ListStepper final : public Stepper {
       particles_per_thread / (kernel::blocks_per_piece * BlockState<Real>::block);
   static constexpr std::size_t pieces_at_a_time = 4;  ///< where some take longer than others
 
-  void place_bones(const Pose& pose);
   kernel::Bindings<Real> bindings() const;
   kernel::Step<Real> job();
   void on_all_pieces(const std::function<void(std::size_t, std::size_t)>& run);
@@ -85,7 +84,6 @@ class ListStepper final : public Stepper {
   void sort();
   void add_moved();
   void make_lists();
-  Subpieces subpieces() const;
   void find_slots();
   StepSums sums_of_totals() const;
   Failure failure(const Pose& pose);

@@ -28,4 +28,21 @@ SpeedChange slowed(const Body& body, const Pose& pose, const Particles& particle
   return change;
 }
 
+void add_to_velocities(SimulationState& state, double by, double unit_of_time,
+                       const std::function<Vec3(std::size_t i)>& gain) {
+  const double unit = std::holds_alternative<MovingInSingle>(state.moving)
+                          ? state.fixed_point_units.length / unit_of_time
+                          : 1;
+  const auto shift = [&](auto& moving) {
+    for (std::size_t k = 0; k < moving.x[0].size(); ++k) {
+      const Vec3 added = by / unit * gain(state.order.empty() ? k : state.order[k]);
+      for (int axis = 0; axis < 3; ++axis) {
+        auto& v = moving.v[axis][k];
+        v = static_cast<std::remove_reference_t<decltype(v)>>(v + added[axis]);
+      }
+    }
+  };
+  std::visit(shift, state.moving);
+}
+
 }  // namespace sinew

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slows particles that were too fast in a step, relative to their bones.
+// Changes of velocities beside steps: particles that were too fast in one, relative to their bones,
+// are slowed.
 //
 //     const SpeedChange change = slowed(body, pose, particles, forces, stepping, offenders, 0.2);
 //     velocities += change.gain;
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include <sinew/body/body.h>
@@ -27,5 +29,10 @@ struct SpeedChange {
 SpeedChange slowed(const Body& body, const Pose& pose, const Particles& particles,
                    const Forces& forces, const Stepping& stepping,
                    const std::vector<Offender>& offenders, double radii);
+
+/// Adds so many times `gain`, of a particle by place (m/s), to the velocities of a state;
+/// `unit_of_time` (s): theirs in single precision.
+void add_to_velocities(SimulationState& state, double by, double unit_of_time,
+                       const std::function<Vec3(std::size_t i)>& gain);
 
 }  // namespace sinew
