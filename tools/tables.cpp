@@ -3,6 +3,7 @@
 #include <string>
 
 #include <sinew/core/arrays.h>
+#include <sinew/io/series_table.h>
 #include <sinew/metrics/bone_metrics.h>
 #include <sinew/metrics/sections.h>
 #include <sinew/metrics/table.h>
@@ -24,6 +25,15 @@ std::string arrays_markdown() {
     text += markdown_row({array.series, place_text(array.place),
                           '`' + std::string(array.name) + '`', components, array.unit, array.help});
   }
+  return text;
+}
+
+std::string series_markdown() {
+  std::string text = "| series | cells | asked for by | contents |\n|---|---|---|---|\n";
+  for (const SeriesRow& series : series_table())
+    text += markdown_row({'`' + std::string(series.name) + '`', cells_text(series.cells),
+                          series.asked_by.empty() ? "" : '`' + std::string(series.asked_by) + '`',
+                          series.contents});
   return text;
 }
 
@@ -56,11 +66,12 @@ std::string table_named(const std::string& name) {
   if (name == "settings") return settings_markdown();
   if (name == "manual") return settings_manual();
   if (name == "arrays") return arrays_markdown();
+  if (name == "series") return series_markdown();
   if (name == "metrics") return metrics_markdown();
   if (name == "bones") return bones_markdown();
   if (name == "sections") return sections_markdown();
   throw bad_input("no table is named '" + name + "'",
-                  "write sinew-tables settings, arrays, metrics, bones or sections");
+                  "write sinew-tables settings, arrays, series, metrics, bones or sections");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <sinew/io/series_table.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/run/report_input.h>
 #include <sinew/run/volume_frames.h>
@@ -181,6 +182,10 @@ void bind_runs(py::module_& module) {
       .def_property_readonly("faces", [](const py::object& self) {
         return view_of(self.cast<R&>().surface.faces, self);
       });
+  module.def("_series_in", [](const std::filesystem::path& folder) {
+    const auto names = series_in(folder);
+    return std::vector<std::string>(names.begin(), names.end());
+  });
   module.def("_open_run", &open);
   module.def("_measure", &measure);
   module.def("_report", &report);

@@ -17,21 +17,6 @@
 namespace sinew::python {
 namespace {
 
-/// The data set of a series. Throws bad input, with the names there are.
-Dataset dataset_of(FrameData& frame, const std::string& series) {
-  if (series == "particles") return frame.particles();
-  if (series == "surface") return frame.surface();
-  if (series == "bones") return frame.bones();
-  if (series == "frames") return frame.frames();
-  if (series == "obstacles") return frame.obstacles();
-  if (series == "supports") return frame.supports();
-  if (series == "bonds") return frame.bonds();
-  if (series == "volume") return frame.volume();
-  throw bad_input("there is no series " + shown(series),
-                  "take one of particles, surface, bones, frames, obstacles, supports, bonds, "
-                  "volume");
-}
-
 /// A moment, with what Python had set until then.
 struct SavedMoment {
   SimulationState state;
@@ -153,11 +138,6 @@ class Stepped {
 
   /// What a file of that series would hold.
   std::shared_ptr<Dataset> dataset(const std::string& series) {
-    if (series == "volume" && !frame_scene_.volume)
-      throw bad_input("this scene has no cells between its particles",
-                      "read it with {\"output.volume\": True}");
-    if (series == "bonds" && !output_.bonds)
-      throw bad_input("this scene writes no bonds", "read it with {\"output.bonds\": True}");
     if (series == "surface") refuse_without_surface();
     const Busy busy(stepping_);
     const WithoutGil free;
@@ -166,7 +146,7 @@ class Stepped {
                           faces_.empty() ? StrainInFrames::on_request : StrainInFrames::by_default);
     if (taken_at_ != simulation_->steps()) frame_data_->take(*simulation_);
     taken_at_ = simulation_->steps();
-    return shared(dataset_of(*frame_data_, series));
+    return shared(frame_data_->dataset(series));
   }
 
   SavedMoment save() const {

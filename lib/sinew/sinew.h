@@ -15,6 +15,7 @@
 #include <sinew/fill/pack.h>
 #include <sinew/io/particle_formats/formats.h>
 #include <sinew/io/series.h>
+#include <sinew/io/series_table.h>
 #include <sinew/io/single_files.h>
 #include <sinew/io/vtu.h>
 #include <sinew/material/material.h>

@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include <sinew/core/arrays.h>
 #include <sinew/core/file.h>
+#include <sinew/io/series_table.h>
 #include "support/scratch.h"
 #include "synthetic_run.h"
 
@@ -286,6 +288,23 @@ TEST_F(SeriesFiles, APvdReplacedWithoutPauseIsNeverTorn) {
     }
   });
   EXPECT_GT(before, 0U);
+}
+
+TEST(SeriesTable, EveryRowHasANameOfItsOwnAndArrays) {
+  for (const SeriesRow& row : series_table()) {
+    EXPECT_EQ(find_series(row.name), &row);
+    EXPECT_NE(find_written(row.name, ArrayPlace::point, "Points"), nullptr) << row.name;
+  }
+  EXPECT_EQ(series_table().front().name, "particles");
+  EXPECT_EQ(find_series("body"), nullptr);
+}
+
+TEST_F(SeriesFiles, AFolderHasTheSeriesWhoseListsAreThere) {
+  EXPECT_TRUE(series_in(folder / "nowhere").empty());
+  for (const char* name : {"skin_lbs.pvd", "bones.pvd", "mine.pvd", "surface.vtu.series"})
+    write_file(folder / name, pvd_text({}));
+  std::filesystem::create_directory(folder / "volume.pvd");
+  EXPECT_EQ(series_in(folder), (std::vector<std::string_view>{"bones", "skin_lbs"}));
 }
 
 }  // namespace sinew::series_test

@@ -401,7 +401,7 @@ class Results(SmallRun):
         frame = self.run_[-1]
         blocks = frame.to_vtk()
         names = [blocks.GetMetaData(i).Get(blocks.NAME()) for i in range(blocks.GetNumberOfBlocks())]
-        self.assertEqual(names, ["particles", "surface", "volume", "bones", "frames"])
+        self.assertEqual(names, ["particles", "surface", "bones", "frames", "volume"])
         for index, name in enumerate(names):
             block, data = blocks.GetBlock(index), frame.dataset(name)
             self.assertEqual(vtk_to_numpy(block.GetPoints().GetData()).ctypes.data, data.points.ctypes.data)

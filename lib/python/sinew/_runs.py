@@ -9,8 +9,6 @@ import numpy
 from . import _sinew
 from ._data import Dataset, pyvista_of, vtk_composite
 
-SERIES = ("particles", "surface", "volume", "bones", "frames", "obstacles", "supports", "bonds")
-
 
 def table(columns, units):
     """A pandas.DataFrame with units in its attrs, or where there is no pandas a dict of arrays."""
@@ -130,8 +128,9 @@ class Frame:
         return name in self.keys()
 
     def to_vtk(self):
-        """A vtkMultiBlockDataSet with a named block for each series of the run."""
-        return vtk_composite({series: self.dataset(series) for series in self._run.series})
+        """A vtkMultiBlockDataSet with a named block for each series of the run that has this moment."""
+        there = [name for name in self._run.series if self._run._row_of(name, self._index) is not None]
+        return vtk_composite({name: self.dataset(name) for name in there})
 
     def to_pyvista(self):
         """A pyvista.MultiBlock of the same."""
@@ -231,7 +230,7 @@ class Run:
     @property
     def series(self):
         """Names of the series that were written."""
-        return [name for name in SERIES if (self.folder / f"{name}.pvd").is_file()]
+        return _sinew._series_in(self.folder)
 
     @property
     def metrics(self):
@@ -275,6 +274,11 @@ class Run:
         time, path = self._rows(series)[row]
         return Dataset(_sinew._read_vtu(path), series, time)
 
+    def _row_of(self, series, index):
+        """The row of a series at the time of a frame; None: it has none."""
+        away = abs(self._times_of(series) - self.times[index])
+        return int(away.argmin()) if len(away) and away.min() <= 1e-6 else None
+
     def _dataset(self, series, index):
         """The data set at the time of a frame."""
         time = self.times[index]
@@ -282,11 +286,10 @@ class Run:
             cells = self._once("cells", lambda: _sinew._RunCells(self._files))
             return Dataset(cells.at(index, self._dataset("particles", index)._data), series, time)
         self._check(series)
-        times = self._times_of(series)
-        at = int(numpy.argmin(abs(times - time))) if len(times) else 0
-        if not len(times) or abs(times[at] - time) > 1e-6:
+        row = self._row_of(series, index)
+        if row is None:
             raise _sinew.Error(f"{series} have no frame at {time} s; the run may be in progress")
-        return self._dataset_at(series, at)
+        return self._dataset_at(series, row)
 
     def __repr__(self):
         span = f"{self.times[0]:.6g} to {self.times[-1]:.6g} s" if len(self) else "none"

@@ -2,12 +2,15 @@
 #include <sinew/run/frame_data.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <type_traits>
 #include <utility>
 
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/text.h>
+#include <sinew/io/series_table.h>
 #include <sinew/material/laws.h>
 #include <sinew/metrics/pair_forces.h>
 #include <sinew/metrics/particle_values.h>
@@ -64,11 +67,58 @@ struct ReactionColumns {
   operator Reactions() const { return {force, moment}; }
 };
 
+/// What says which series frames have.
+struct FrameContent {
+  const OutputSettings& output;
+  const Body& body;
+  const FrameScene& scene;
+};
+
+/// Where a series is written, and what makes it.
+struct SeriesMaker {
+  std::string_view series;
+  bool (*is_written)(const FrameContent&);
+  Dataset (*make)(FrameData&);
+};
+
+bool in_all_frames(const FrameContent&) { return true; }
+
+bool with_machine(const FrameContent& of) {
+  return of.body.world && !(of.body.world->supports.empty() && of.body.world->loads.empty());
+}
+
+/// For every series that frames have: see series_table.h.
+constexpr std::array<SeriesMaker, 10> series_makers = {{
+    {"particles", in_all_frames, [](FrameData& now) { return now.particles(); }},
+    {"surface", in_all_frames, [](FrameData& now) { return now.surface(); }},
+    {"bones", in_all_frames, [](FrameData& now) { return now.bones(); }},
+    {"frames", in_all_frames, [](FrameData& now) { return now.frames(); }},
+    {"obstacles", [](const FrameContent& of) { return !of.scene.obstacles.empty(); },
+     [](FrameData& now) { return now.obstacles(); }},
+    {"supports", with_machine, [](FrameData& now) { return now.supports(); }},
+    {"bonds", [](const FrameContent& of) { return of.output.bonds; },
+     [](FrameData& now) { return now.bonds(); }},
+    {"volume", [](const FrameContent& of) { return of.scene.volume.has_value(); },
+     [](FrameData& now) { return now.volume(); }},
+    {"skin_lbs", [](const FrameContent& of) { return of.output.skin_lbs; },
+     [](FrameData& now) { return now.skinned(linear_blend_skinned); }},
+    {"skin_dqs", [](const FrameContent& of) { return of.output.skin_dqs; },
+     [](FrameData& now) { return now.skinned(dual_quaternion_skinned); }},
+}};
+
+std::vector<std::string_view> series_of(const FrameContent& content) {
+  std::vector<std::string_view> names;
+  for (const SeriesMaker& maker : series_makers)
+    if (maker.is_written(content)) names.push_back(maker.series);
+  return names;
+}
+
 }  // namespace
 
 FrameData::FrameData(const OutputSettings& output, const Body& body, const FrameScene& scene,
                      StrainInFrames strain)
     : body_(body),
+      series_(series_of({output, body, scene})),
       selection_{written_particles(output, body.rest, body.material.pair.r, scene.neighbors),
                  frame_arrays(output.only)},
       probed_(!scene.probes.empty()),
@@ -164,7 +214,21 @@ void FrameData::take(Simulation& simulation, double time, bool with_particles) {
 
 Dataset FrameData::particles() { return particles_at(now_.positions); }
 
-void FrameData::lend_particles(const std::function<void(const Dataset&)>& use) {
+Dataset FrameData::dataset(std::string_view series) {
+  const auto* maker = std::find_if(series_makers.begin(), series_makers.end(),
+                                   [&](const SeriesMaker& one) { return one.series == series; });
+  const SeriesRow* row = find_series(series);
+  if (maker == series_makers.end() || row == nullptr)
+    throw bad_input("there is no series " + shown(series), suggestion(series, series_));
+  const bool is_there = std::find(series_.begin(), series_.end(), series) != series_.end();
+  if (!is_there && !row->asked_by.empty())
+    throw bad_input("this scene has no series " + shown(series),
+                    "set " + std::string(row->asked_by) + " to true");
+  return maker->make(*this);
+}
+
+void FrameData::lend(std::string_view series, const std::function<void(const Dataset&)>& use) {
+  if (series != "particles") return use(dataset(series));
   const bool all = selection_.ids.empty();
   Dataset lent = particles_at(all ? std::move(now_.positions) : now_.positions);
   use(lent);

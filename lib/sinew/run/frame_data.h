@@ -95,11 +95,17 @@ class FrameData {
     skin_columns_.clear();
   }
 
+  /// Names of the series that these frames have, in the order of the table.
+  const std::vector<std::string_view>& series() const { return series_; }
+  /// What a file of that series holds; of particles, see particles(). Throws bad input for a series
+  /// that these frames lack, with the names there are.
+  Dataset dataset(std::string_view series);
+  /// Hands the same to `use`, particles without a copy of their positions.
+  void lend(std::string_view series, const std::function<void(const Dataset&)>& use);
+
   /// A vertex for each particle, with their arrays and the energies, where they were taken. It
   /// refers to this object, until the next take(): evaluated() makes it independent.
   Dataset particles();
-  /// Hands the same to `use` without a copy of the positions.
-  void lend_particles(const std::function<void(const Dataset&)>& use);
   /// The skin, as the particles move it, with those of their arrays that it has.
   Dataset surface();
   /// The skin by skinning alone.
@@ -137,6 +143,7 @@ class FrameData {
   std::vector<Column> columns_of_contact() const;
 
   const Body& body_;
+  std::vector<std::string_view> series_;
   ParticleSelection selection_;  ///< what the frames of particles contain
   bool probed_;
   Skin skin_;

@@ -9,19 +9,25 @@
 #include <sinew/core/error.h>
 #include <sinew/core/local_origin.h>
 #include <sinew/io/gltf/moving_surface.h>
+#include <sinew/io/series_table.h>
 #include <sinew/run/run_files.h>
 #include <sinew/settings/text_file.h>
 
 namespace sinew {
 namespace {
 
-VtuFormat format_of(const OutputSettings& output, const char* series, double radius) {
+VtuFormat format_of(const OutputSettings& output, std::string_view series, double radius) {
   VtuFormat format;
   format.encoding = output.encoding;
   format.double_precision = output.double_precision;
   format.series = series;
   format.radius = radius;
   return format;
+}
+
+/// Whether a series has the frames with particles alone.
+bool is_thinned(std::string_view series) {
+  return find_series(series)->frames == SeriesFrames::with_particles;
 }
 
 std::vector<double> each(std::size_t nth, std::span<const double> times) {
@@ -48,37 +54,24 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
       data_(output, body, scene, strain),
       every_(static_cast<std::size_t>(output.every)),
       taken_(kept.size()),
-      particles_(folder, format_of(output, "particles", body.material.pair.r), each(every_, kept)),
-      skins_(folder, format_of(output, "surface", body.material.pair.r), kept),
-      bones_(folder, format_of(output, "bones", body.material.pair.r), kept),
-      frames_(folder, format_of(output, "frames", body.material.pair.r), kept),
       bone_table_(folder / "bones.csv", body.skeleton.size(), kept.size()),
       faces_(scene.surface.faces),
       written_(static_cast<int>(kept.size())) {
-  if (!scene.obstacles.empty())
-    obstacle_series_.emplace(folder, format_of(output, "obstacles", body.material.pair.r), kept);
-  if (body.world && !(body.world->supports.empty() && body.world->loads.empty())) {
+  for (const std::string_view name : data_.series())
+    series_.emplace_back(
+        folder, format_of(output, name, body.material.pair.r),
+        is_thinned(name) ? each(every_, kept) : std::vector(kept.begin(), kept.end()));
+  if (find("supports") != nullptr)
     support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
-    support_series_.emplace(folder, format_of(output, "supports", body.material.pair.r), kept);
-  }
   if (!scene.probes.empty()) probe_table_.emplace(folder / "probes.csv", scene.probes, kept.size());
-  begin_skinned(output, kept);
   if (output.export_surface) begin_export(scene.surface, kept.size(), scene.look);
-  if (output.bonds)
-    bond_series_.emplace(folder_, format_of(output, "bonds", body_.material.pair.r),
-                         each(every_, kept));
-  if (scene.volume)
-    volume_series_.emplace(folder_, format_of(output, "volume", body_.material.pair.r),
-                           each(every_, kept));
   begin_checksums();
 }
 
-std::vector<Series*> FrameWriter::all_series() {
-  std::vector<Series*> all{&particles_, &skins_, &bones_, &frames_};
-  for (auto* series : {&obstacle_series_, &support_series_, &bond_series_, &volume_series_})
-    if (*series) all.push_back(&**series);
-  for (const Skinned& skinned : skinned_) all.push_back(skinned.series.get());
-  return all;
+const Series* FrameWriter::find(std::string_view series) const {
+  const auto found = std::find_if(series_.begin(), series_.end(),
+                                  [&](const Series& one) { return one.name() == series; });
+  return found == series_.end() ? nullptr : &*found;
 }
 
 /// Begins with checksums of kept frames, and of what was written before the frames.
@@ -88,9 +81,9 @@ void FrameWriter::begin_checksums() {
   for (const auto& mesh : std::filesystem::directory_iterator(folder_ / "meshes", none))
     if (mesh.is_regular_file(none)) begun.insert("meshes/" + mesh.path().filename().string());
   std::set<std::string> stay = begun;
-  for (const Series* series : all_series()) {
-    for (const PvdRow& row : series->rows()) stay.insert(row.file);
-    listed_.push_back(series->rows().size());
+  for (const Series& series : series_) {
+    for (const PvdRow& row : series.rows()) stay.insert(row.file);
+    listed_.push_back(series.rows().size());
   }
   std::vector<Checksum> kept;
   if (written_ > 0) kept = read_checksums(folder_);
@@ -102,20 +95,10 @@ void FrameWriter::begin_checksums() {
 }
 
 void FrameWriter::list_new_frames() {
-  const std::vector<Series*> all = all_series();
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    for (const auto& rows = all[k]->rows(); listed_[k] < rows.size(); ++listed_[k])
+  for (std::size_t k = 0; k < series_.size(); ++k) {
+    for (const auto& rows = series_[k].rows(); listed_[k] < rows.size(); ++listed_[k])
       checksums_->add(rows[listed_[k]].file);
   }
-}
-
-void FrameWriter::begin_skinned(const OutputSettings& output, std::span<const double> kept) {
-  const auto begin = [&](SkinningMethod method, const char* name) {
-    const VtuFormat format = format_of(output, name, body_.material.pair.r);
-    skinned_.push_back({method, std::make_unique<Series>(folder_, format, kept)});
-  };
-  if (output.skin_lbs) begin(linear_blend_skinned, "skin_lbs");
-  if (output.skin_dqs) begin(dual_quaternion_skinned, "skin_dqs");
 }
 
 void FrameWriter::begin_export(const Triangles& surface, std::size_t kept, SurfaceLook look) {
@@ -144,15 +127,12 @@ void FrameWriter::write(bool begun) {
   const FrameMoment& now = data_.now();
   if (support_table_) write_supports();
   if (probe_table_) write_probes(now);
-  if (now.with_particles) write_particles(begun);
-  write_surfaces();
-  bones_.add(data_.bones());
-  frames_.add(data_.frames());
+  for (Series& series : series_)
+    if (now.with_particles || !is_thinned(series.name())) write_series(series, begun);
   const std::vector<Reaction> sums = now.reactions.sums();
   const auto springs = rows_of(now.reactions.springs), pins = rows_of(now.reactions.pins),
              obstacles = rows_of(now.reactions.obstacles);
   bone_table_.add(now.moment.time, body_.skeleton, rows_of(sums), {springs, pins, obstacles});
-  if (obstacle_series_) obstacle_series_->add(data_.obstacles());
   list_new_frames();
   ++written_;
 }
@@ -160,7 +140,6 @@ void FrameWriter::write(bool begun) {
 void FrameWriter::write_supports() {
   const MachineMoment now = data_.machine();
   support_table_->add(now, support_frames(*body_.world, now, body_.rest));
-  support_series_->add(data_.supports());
 }
 
 void FrameWriter::write_probes(const FrameMoment& now) {
@@ -175,32 +154,22 @@ void FrameWriter::write_probes(const FrameMoment& now) {
                      std::get<std::vector<double>>(found[1].values), force});
 }
 
-void FrameWriter::write_particles(bool begun) {
-  if (bond_series_) bond_series_->add(data_.bonds());
-  if (volume_series_) volume_series_->add(data_.volume());
-  data_.lend_particles([&](const Dataset& particles) {
-    if (begun)
-      particles_.finish(particles);
-    else
-      particles_.add(particles);
+void FrameWriter::write_series(Series& series, bool begun) {
+  const bool finishes = begun && &series == &series_.front();
+  data_.lend(series.name(), [&](const Dataset& frame) {
+    finishes ? series.finish(frame) : series.add(frame);
+    if (export_ && series.name() == "surface") export_->add(frame.points);
   });
-}
-
-void FrameWriter::write_surfaces() {
-  const Dataset skin = data_.surface();
-  skins_.add(skin);
-  if (export_) export_->add(skin.points);
-  for (const Skinned& skinned : skinned_) skinned.series->add(data_.skinned(skinned.method));
 }
 
 void FrameWriter::close() {
   writer_.finish();
   data_.forget();
-  particles_.drop_begun();
-  for (Series* series : all_series()) {
-    series->close();
+  series_.front().drop_begun();
+  for (Series& series : series_) {
+    series.close();
     if (written_ == 0) continue;  // it has no row, and is none
-    for (const std::string& list : series_files(series->name())) checksums_->add(list);
+    for (const std::string& list : series_files(series.name())) checksums_->add(list);
   }
   bone_table_.close();
   checksums_->add("bones.csv");
@@ -218,7 +187,7 @@ void FrameWriter::close() {
   if (!export_origin_.isZero(0)) checksums_->add("surface.pc2.origin.json");
   if (written_ == 0) return;  // nothing moves
   std::vector<double> times;
-  for (const PvdRow& row : skins_.rows()) times.push_back(row.time);
+  for (const PvdRow& row : find("surface")->rows()) times.push_back(row.time);
   write_moving_surface(folder_ / "surface.glb", faces_, folder_ / "surface.pc2", times, look_,
                        export_origin_);
   checksums_->add("surface.glb");

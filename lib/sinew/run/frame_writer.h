@@ -10,6 +10,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -66,39 +67,28 @@ class FrameWriter {
   int written() const { return written_; }
 
  private:
-  /// The surface moved by skinning alone, in a series of its own.
-  struct Skinned {
-    SkinningMethod method;
-    std::unique_ptr<Series> series;
-  };
-
-  void begin_skinned(const OutputSettings& output, std::span<const double> kept);
+  const Series* find(std::string_view series) const;
   void begin_export(const Triangles& surface, std::size_t kept, SurfaceLook look);
   void write(bool begun);
-  void write_particles(bool begun);
-  void write_surfaces();
+  void write_series(Series& series, bool begun);
   void write_supports();
   void write_probes(const FrameMoment& now);
-  std::vector<Series*> all_series();
   void begin_checksums();
   void list_new_frames();
 
   std::filesystem::path folder_;
   const Body& body_;
-  FrameData data_;     ///< of the frame that is being written
-  std::size_t every_;  ///< of so many frames, one contains particles
-  std::size_t taken_;  ///< frames so far
-  Series particles_, skins_, bones_, frames_;
-  std::optional<Series> obstacle_series_, support_series_;  ///< where the scene has some
+  FrameData data_;             ///< of the frame that is being written
+  std::size_t every_;          ///< of so many frames, one contains particles
+  std::size_t taken_;          ///< frames so far
+  std::deque<Series> series_;  ///< as data_ names them: particles, surface, ...
   BoneTable bone_table_;
   std::optional<SupportTable> support_table_;  ///< where the scene has some, or loads
   std::optional<ProbeTable> probe_table_;      ///< where the scene has some
-  std::vector<Skinned> skinned_;
   std::unique_ptr<PointCache> export_;
-  Vec3 export_origin_ = Vec3::Zero();                  ///< of its places, m
-  SurfaceLook look_;                                   ///< of the exported surface
-  std::vector<std::array<int, 3>> faces_;              ///< of the surface
-  std::optional<Series> bond_series_, volume_series_;  ///< where the scene requests it
+  Vec3 export_origin_ = Vec3::Zero();      ///< of its places, m
+  SurfaceLook look_;                       ///< of the exported surface
+  std::vector<std::array<int, 3>> faces_;  ///< of the surface
   std::optional<Checksums> checksums_;
   std::vector<std::size_t> listed_;  ///< frames of each series whose checksums are
   std::atomic<int> written_ = 0;

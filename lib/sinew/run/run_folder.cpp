@@ -16,7 +16,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
-#include <sinew/io/series.h>
+#include <sinew/io/series_table.h>
 
 namespace sinew {
 
@@ -26,16 +26,19 @@ namespace {
 
 /// Names that a run writes in its folder; in DIR/NAME/ only files numbered as a run numbers them.
 bool written_by_a_run(const fs::path& relative) {
+  static const std::string of_series = series_names("|");
   static const std::regex ours(
       "\\.?(scene\\.yaml|run\\.json|log\\.txt|(view|live)\\.py|view\\.pvsm|checksums\\.sfv|"
       "report\\.html|"
       "metrics(_bones)?\\.(csv|json)|(bones|probes|sections|supports)\\.csv|surface\\.(obj|pc2|"
       "pc2\\.origin\\.json|glb)"
       "|blowup\\.vtu|"
-      "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values|volume)\\."
-      "(pvd|vtu\\.series))("
-      "\\.tmp)?|"
-      "(particles|surface|bones|bonds|frames|obstacles|supports|skin_lbs|skin_dqs|values|volume)/"
+      "(" +
+      of_series +
+      ")\\.(pvd|vtu\\.series))(\\.tmp)?|"
+      "(" +
+      of_series +
+      ")/"
       "\\.?[a-z_]+_[0-9]{6,}\\.vtu(\\.tmp)?|"
       "checkpoint/\\.?[ab]\\.bin(\\.tmp)?|"
       "pictures/\\.?((compare_)?(body|surface|particles|section|strain|forces|bones)"
@@ -47,14 +50,17 @@ bool written_by_a_run(const fs::path& relative) {
 
 /// Folders within that of a run, and the run's own. Checkpoints first: without them a partly
 /// removed run cannot be resumed.
-constexpr std::array<const char*, 15> run_parts = {
-    "checkpoint", "",         "particles", "surface", "bones",  "bonds",    "frames", "obstacles",
-    "supports",   "skin_lbs", "skin_dqs",  "values",  "volume", "pictures", "meshes"};
+std::vector<std::string_view> run_parts() {
+  std::vector<std::string_view> parts = {"checkpoint", ""};
+  for (const SeriesRow& series : series_table()) parts.push_back(series.name);
+  parts.insert(parts.end(), {"pictures", "meshes"});
+  return parts;
+}
 
 std::vector<fs::path> files_of_run(const RunFolder& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
-  for (const char* part : run_parts)
+  for (const std::string_view part : run_parts())
     for (const auto& entry : fs::directory_iterator(folder.path / part, failed))
       if (!entry.is_directory(failed) &&
           written_by_a_run(entry.path().lexically_relative(folder.path / "")))
@@ -66,10 +72,11 @@ std::vector<fs::path> files_of_run(const RunFolder& folder) {
 /// its own in their place.
 void refuse_others(const RunFolder& folder) {
   std::error_code none;
+  const auto parts = run_parts();
   for (const auto& entry : fs::directory_iterator(folder.path, none)) {
     const std::string name = entry.path().filename().string();
     const bool part =
-        name != "meshes" && std::find(run_parts.begin(), run_parts.end(), name) != run_parts.end();
+        name != "meshes" && std::find(parts.begin(), parts.end(), name) != parts.end();
     if (name.front() == '.' || name == "body.vtu" || (part && entry.is_directory(none))) continue;
     throw bad_input(Place{folder.path.string()},
                     "holds files that are of no run, " + shown(name) + " for one",
@@ -111,8 +118,8 @@ void remove_old_run(const RunFolder& folder) {
 }
 
 void refuse_foreign_files(const RunFolder& folder) {
-  for (const char* part : run_parts)
-    if (*part != '\0') refuse_link(folder.path / part);
+  for (const std::string_view part : run_parts())
+    if (!part.empty()) refuse_link(folder.path / part);
   if (folder.used()) return;
   for (const fs::path& file : files_of_run(folder)) {
     // Remains of a run killed before it had written its record.

@@ -13,6 +13,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/json.h>
 #include <sinew/core/system.h>
+#include <sinew/io/series_table.h>
 
 namespace sinew {
 namespace {
@@ -127,6 +128,7 @@ void refuse_without_frames(const RunFolder& folder) {
 Json begin_record(const std::vector<std::string>& command) {
   Json record;
   record["program"] = "sinew";
+  record["schema_version"] = run_schema_version;
   record["version"] = version();
   record["status"] = "running";
   record["command"] = command;

@@ -10,6 +10,7 @@
 #include <sinew/core/text.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/series.h>
+#include <sinew/io/series_table.h>
 #include <sinew/io/vtu.h>
 
 namespace sinew {
@@ -197,9 +198,7 @@ ShownRun shown_run(const fs::path& folder, const ViewOptions& options) {
   if (rows.empty())
     throw bad_input(Place{folder.string()}, "the run has no frames yet", "wait for its first one");
   for (const PvdRow& row : rows) run.times.push_back(row.time);
-  for (const char* name :
-       {"particles", "volume", "surface", "bones", "frames", "obstacles", "supports"})
-    if (fs::exists(run.folder / (std::string(name) + ".pvd"))) run.series.emplace_back(name);
+  for (const std::string_view name : series_in(run.folder)) run.series.emplace_back(name);
   const Dataset rest = read_vtu(run.folder / "body.vtu", {"radius"});
   if (rest.points.empty())
     throw bad_input(Place{(run.folder / "body.vtu").string()}, "has no particles",

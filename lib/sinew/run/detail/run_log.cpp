@@ -10,6 +10,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/io/series_table.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/check/stiffness.h>
 #include <sinew/settings/table.h>
@@ -18,6 +19,17 @@ namespace sinew {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Series that a run may have: readers take those whose files are there.
+Json table_of_series() {
+  Json series;
+  for (const SeriesRow& row : series_table()) {
+    Json& one = series[std::string(row.name)];
+    one = {{"cells", cells_text(row.cells)}, {"contents", row.contents}};
+    if (!row.asked_by.empty()) one["asked_by"] = row.asked_by;
+  }
+  return series;
+}
 
 Json arrays_with_units() {
   Json arrays;
@@ -158,6 +170,7 @@ void RunLog::describe(const Prepared& prepared) {
   if (prepared.beginning.posed) record_["begins"] = "pose";
   record_["steps"] = 0;
   record_["frames"] = 0;
+  record_["series"] = table_of_series();
   record_["arrays"] = arrays_with_units();
   write_record(folder_, record_);
   log(std::to_string(prepared.body.rest.size()) + " particles of radius " +
