@@ -5,6 +5,7 @@
 
 #include <sinew/core/deformation.h>
 #include <sinew/core/parallel.h>
+#include <sinew/metrics/particle_values.h>
 
 #include "without_gil.h"
 
@@ -40,14 +41,19 @@ std::shared_ptr<RestShape> shape_of(const py::object& points, double cutoff) {
   return std::make_shared<RestShape>(rest_shape(std::move(at_rest), cutoff));
 }
 
+Points moved_points(const RestShape& rest, const py::object& given) {
+  Points now = known_points_of(given, "now");
+  if (now.size() != rest.points.size())
+    throw bad_input("now are " + std::to_string(now.size()) + " points, and " +
+                        std::to_string(rest.points.size()) + " at rest",
+                    "give them all, in the same order; not-a-number where one is gone");
+  return now;
+}
+
 /// F, (n, 3, 3), and D2min, (n,).
 py::tuple fits_of(const RestShape& rest, const py::object& given) {
-  const Points now = known_points_of(given, "now");
-  const std::size_t count = rest.points.size();
-  if (now.size() != count)
-    throw bad_input("now are " + std::to_string(now.size()) + " points, and " +
-                        std::to_string(count) + " at rest",
-                    "give them all, in the same order; not-a-number where one is gone");
+  const Points now = moved_points(rest, given);
+  const std::size_t count = now.size();
   const auto rows = static_cast<py::ssize_t>(count);
   py::array_t<double> F({rows, py::ssize_t{3}, py::ssize_t{3}}), D2min(rows);
   double *to = F.mutable_data(), *left = D2min.mutable_data();
@@ -62,6 +68,22 @@ py::tuple fits_of(const RestShape& rest, const py::object& given) {
     });
   }
   return py::make_tuple(std::move(F), std::move(D2min));
+}
+
+/// Arrays by name, a row for each point.
+py::dict deformation_of(const RestShape& rest, const py::object& given) {
+  const Points now = moved_points(rest, given);
+  std::vector<Column> columns;
+  {
+    const WithoutGil free;
+    columns = deformation_arrays(rest, now);
+  }
+  py::dict arrays;
+  for (Column& one : columns) {
+    const std::string name = one.name;
+    arrays[py::str(name)] = rows_of(std::move(one));
+  }
+  return arrays;
 }
 
 }  // namespace
@@ -84,7 +106,11 @@ void bind_deformation(py::module_& module) {
       .def("gradients", &fits_of, py::arg("now"),
            "Deformation gradients F (n, 3, 3) and D2min (n,), the mean of |dx - F dX|^2 over the "
            "neighbors, when the points have moved to `now` (n, 3), in the same order. Points that "
-           "are gone are not-a-number there; so is the result where the neighbors lie in a plane.");
+           "are gone are not-a-number there; so is the result where the neighbors lie in a plane.")
+      .def("arrays", &deformation_of, py::arg("now"),
+           "What follows from these, by name: F and R of F = R U (n, 9), row by row, strain "
+           "(Green-Lagrange; XX, YY, ZZ, XY, YZ, XZ), stretch (the largest first), J, strain_eq, "
+           "D2min, and rotation, the angle of R in degrees.");
 }
 
 }  // namespace sinew::python

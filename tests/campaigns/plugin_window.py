@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shown by plugin_window.sh: a run by the reader and its macro, beside it a filled sphere that is cut open."""
+"""Shown by plugin_window.sh: a run by the macro of the reader, beside it a filled sphere that is cut open."""
 import os
 import sys
 
@@ -16,7 +16,8 @@ packing = ClosestPacking(registrationName="packing", Input=sphere, Radius=0.012)
 half = Threshold(registrationName="half", Input=Calculator(Input=packing, ResultArrayName="y", Function="coordsY"),
                  Scalars=["POINTS", "y"], LowerThreshold=0, UpperThreshold=1)
 shown = Show(half, view)
-show_run.as_spheres(shown)
+shown.SetRepresentationType("Point Gaussian")
+shown.GaussianRadius = 0.012
 ColorBy(shown, ("POINTS", "neighbors"))
 Hide(packing, view)
 SetActiveSource(packing)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """pvbatch plugin_deformation_test.py BIN SOURCE [TESTS]: the plugin's filter Deformation of any points, by the Python package
-in the folder SINEW_MODULE, or without it by NumPy.
+in the folder SINEW_MODULE.
 """
 import subprocess
 import sys
@@ -34,6 +34,14 @@ def packed(count):
     """A face-centered cubic packing."""
     cells = numpy.stack(numpy.meshgrid(*[range(count)] * 3, indexing="ij"), -1).reshape(-1, 1, 3)
     return (cells + numpy.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])).reshape(-1, 3)
+
+
+class WithoutThePackage(unittest.TestCase):
+    @unittest.skipIf(MODULE, "with the package")
+    def test_it_is_named_in_a_line(self):
+        with Messages() as messages:
+            Deformation(Input=cloud(packed(3)), Reference=cloud(packed(3))).UpdatePipeline()
+        self.assertRegex(messages.text, r"^ERROR: Deformation: the Python package sinew is not found; install python3-sinew[^\n]*\n$")
 
 
 class Deformed(SmallRun):
@@ -87,29 +95,13 @@ class Deformed(SmallRun):
         sources = [cloud(self.rest, numpy.arange(500), "tag"), cloud(now, order, "tag")]
         found = fetched(Deformation(Reference=sources[0], Input=sources[1], IdArray="tag"))
         numpy.testing.assert_allclose(arrays(found.GetPointData())["J"], 1.2 ** 3, rtol=1e-12)
-        self.assertIn("python3-sinew" if MODULE else "NumPy", field(found, "found_by"))
+        self.assertIn("python3-sinew", field(found, "found_by"))
         for ids, properties, words in (((range(500), None), {}, "at rest have ids"), ((None, range(500)), {}, "later moment have ids"),
                                        ((range(500), range(500)), {"IdArray": "tag"}, "no array tag"),
                                        ((range(500), range(500, 1000)), {}, "no id is in both")):
             with Messages() as messages:
                 self.deformation(self.rest, now, ids, **properties)
             self.assertIn(words, messages.text)
-
-    def test_the_package_and_numpy_find_the_same(self):
-        if not MODULE:
-            self.skipTest("without the package")
-        from sinew_parts import deformation
-        now = self.rest + 0.05 * self.random.random((500, 3))
-        now[::9] = numpy.nan
-        rest = numpy.vstack([self.rest, [[50, 0, 0], [50.5, 0, 0]]])  # too few to have a gradient
-        now = numpy.vstack([now, rest[-2:]])
-        for cutoff in (0.85, 1.3):
-            one = deformation.ByNumPy(rest, cutoff).gradients(now)
-            other = deformation.ByModule(deformation.package("RestShape"), rest, cutoff).gradients(now)
-            self.assertGreater(numpy.isfinite(one[1]).sum(), 300)
-            self.assertTrue(numpy.isnan(one[0][-2:]).all())
-            for a, b in zip(one, other):
-                numpy.testing.assert_allclose(a, b, rtol=0, atol=1e-12)
 
     def test_moments_of_one_filter_are_those_of_fresh_ones(self):
         """Whatever it keeps between moments, and however its properties and its input change."""

@@ -19,6 +19,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 from plugin_support import *
 
 
+OF_PARTICLES = '{"series": {"particles": {"cells": "vertex"}}}'
+
+
 class Reader(SmallRun):
     def same_as_paraview(self, folder):
         """All series of a run, as ParaView's own reader has them."""
@@ -28,7 +31,7 @@ class Reader(SmallRun):
         times = list(run.TimestepValues)
         for moment in (times[0], times[len(times) // 2], times[-1]):
             found = blocks(fetched(run, moment))
-            self.assertEqual(sorted(found), sorted(set(names) & set(sinew_paraview.run_files.SERIES)))
+            self.assertEqual(sorted(found), sorted(names))
             for name, block in found.items():
                 own = fetched(OpenDataFile(str(folder / f"{name}.pvd")), moment)
                 numpy.testing.assert_array_equal(points(block), points(own))
@@ -41,7 +44,7 @@ class Reader(SmallRun):
 
     def test_a_finished_run(self):
         self.simulate("--set", "output.volume=true", "--set", "output.bonds=true", "--set", "material.model=bonded",
-                      "--set", "body.radius=0.04")
+                      "--set", "body.radius=0.04", "--set", "output.skin_lbs=true")
         run = self.same_as_paraview(self.out)
         self.assertEqual(len(run.TimestepValues), 13)
         run.Series = ["particles"]
@@ -78,6 +81,69 @@ class Reader(SmallRun):
         command(*words, "--resume", check=0)
         run.UpdatePipelineInformation()
         self.same_as_paraview(self.out)
+
+    def test_a_record_lists_what_is_read(self):
+        """That of an older run by its arrays, and none until it is written."""
+        self.simulate("--set", "body.radius=0.04", "--set", "output.skin_lbs=true")
+        record = json.loads((self.out / "run.json").read_text())
+        names = {"particles", "surface", "bones", "frames", "skin_lbs"}
+        for changed, expected in (({}, names), ({"series": None}, names), ({"series": None, "arrays": None}, set()),
+                                  ({"series": {"surface": {}, "../particles": {}, "bones": 1}}, {"surface"}), (7, set())):
+            (self.out / "run.json").write_text(json.dumps({**record, **changed} if isinstance(changed, dict) else changed))
+            run = SinewRun(FileName=str(self.out / "run.json"))
+            run.UpdatePipelineInformation()
+            self.assertEqual(set(run.Series.GetAvailable()), expected)
+
+    def test_the_live_source_has_the_newest_frame_of_all(self):
+        self.simulate("--set", "body.radius=0.04")
+        text = (self.out / "surface.pvd").read_text()
+        source = SinewSeries(FileName=str(self.out / "run.json"), Series="particles", Vectors="force_bone", ArrowLength=0.1)
+        last = fetched(source)
+        self.assertAlmostEqual(field(last, "TimeValue"), 0.4)
+        arrows = arrays(last.GetPointData())["arrow"]
+        self.assertAlmostEqual(numpy.linalg.norm(arrows, axis=1).max(), 0.1)
+        self.assertFalse(source.GetClientSideObject().GetNeedsUpdate())
+        lines = text.splitlines(keepends=True)
+        (self.out / "surface.pvd").write_text("".join(lines[:6] + lines[-2:]))  # of a run that has written three frames
+        self.assertTrue(source.GetClientSideObject().GetNeedsUpdate())
+        third = fetched(source)
+        self.assertAlmostEqual(field(third, "TimeValue"), 2 / 30, places=5)
+        self.assertLess(numpy.linalg.norm(arrays(third.GetPointData())["arrow"], axis=1).max(), 0.1)  # the largest was before
+        (self.out / "particles.pvd").unlink()
+        with Messages() as messages:
+            source.UpdatePipeline()
+        self.assertEqual(messages.text, "")
+
+    def test_rounding_is_drawn_as_zero(self):
+        grid = blocks(fetched(self.small_run()))["particles"]
+        values = {"strain_eq": 1e-12, "displacement": 1e-12, "force_pair": 1e-12, "radius": 1e-12}
+        for name, factor in values.items():
+            array = grid.GetPointData().GetArray(name)
+            before = vtk_to_numpy(array)
+            before[:] = factor * (1 + numpy.random.default_rng(1).random(before.shape))
+        sinew_paraview.run_files.without_rounding(grid)
+        found = {name: abs(vtk_to_numpy(grid.GetPointData().GetArray(name))).max() for name in values}
+        self.assertEqual((found["strain_eq"], found["displacement"]), (0, 0))
+        self.assertGreater(found["force_pair"], 0)  # whose scale nobody knows
+        self.assertGreater(abs(vtk_to_numpy(grid.GetPointData().GetArray("id"))).max(), 0)
+
+    def small_run(self):
+        self.simulate("--set", "body.radius=0.04")
+        return SinewRun(FileName=str(self.out / "run.json"))
+
+    def test_the_macro_shows_a_run_by_its_state(self):
+        run = self.small_run()
+        sys.path.append(str(SOURCE / "tools/paraview/macros"))
+        import show_run
+        moved = self.folder / "moved"
+        self.out.rename(moved)
+        run.FileName = str(moved / "run.json")
+        show_run.show_run(run)
+        names = {name for name, _ in GetSources()}
+        self.assertLessEqual({"cut-away body", "bone tubes", "surface.pvd"}, names)
+        self.assertEqual(FindSource("surface.pvd").FileName, str(moved / "surface.pvd"))
+        with self.assertRaisesRegex(RuntimeError, "select a run"):
+            show_run.show_run(FindSource("surface.pvd"))
 
     def rows(self):
         return len(ET.parse(self.out / "particles.pvd").getroot().findall(".//DataSet"))
@@ -145,7 +211,7 @@ class Reader(SmallRun):
             self.assertIn(f"{frames[index]}: cannot be read; see sinew info {self.out} --verify", messages.text)
 
     def test_what_is_no_run_is_refused_in_words(self):
-        (self.folder / "run.json").write_text("{}")
+        (self.folder / "run.json").write_text(OF_PARTICLES)
         with Messages() as messages:
             SinewTables(FileName=str(self.folder / "run.json"), Table="probes").UpdatePipeline()
         self.assertIn("probes.csv: is not there", messages.text)
@@ -175,7 +241,7 @@ class Reader(SmallRun):
 
     def test_series_that_are_none_are_refused_in_a_line(self):
         run = self.folder / "run.json"
-        run.write_text("{}")
+        run.write_text(OF_PARTICLES)
         pvd = self.folder / "particles.pvd"
 
         def naming(time, head="<?xml version='1.0'?>"):

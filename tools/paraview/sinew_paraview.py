@@ -11,6 +11,7 @@ import os
 import sys
 
 import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 if not hasattr(inspect, "getargspec"):  # which ParaView 5.11 takes from Python, and Python 3.11 no longer has
     inspect.getargspec = inspect.getfullargspec
@@ -115,6 +116,66 @@ class SinewRun(VTKPythonAlgorithmBase):
                 output.GetMetaData(index).Set(vtkCompositeDataSet.NAME(), one.name)
             output.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
         return 1
+
+
+@smproxy.source(name="SinewSeries", label="Sinew Series")
+@smhint.xml('<LiveSource interval="500" />')
+class SinewSeries(VTKPythonAlgorithmBase):
+    """The newest frame of one series of a run, as soon as it is written: what `sinew view --live` shows. What is mere rounding
+    is zero. An array of vectors may be given as arrows, of which the largest so far has a length."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid")
+        self._file, self._name, self._vectors, self._length, self._largest, self._seen = None, "", "", 0.0, 0.0, None
+
+    @smproperty.stringvector(name="FileName")
+    @smdomain.filelist()
+    @smhint.filechooser(extensions="json", file_description="Run of sinew (run.json)")
+    def SetFileName(self, name):
+        self._file = name
+        self.Modified()
+
+    @smproperty.stringvector(name="Series", default_values="particles")
+    def SetSeries(self, name):
+        self._name = name
+        self.Modified()
+
+    @smproperty.stringvector(name="Vectors", default_values="")
+    def SetVectors(self, name):
+        self._vectors = name or ""
+        self.Modified()
+
+    @smproperty.doublevector(name="ArrowLength", default_values=0.0)
+    def SetArrowLength(self, length):
+        self._length = length
+        self.Modified()
+
+    def GetNeedsUpdate(self):
+        """Whether there are new frames; ParaView asks twice a second."""
+        with contextlib.suppress(Refused):
+            if run_files.state_of(run_files.folder_of_run(self._file)) != self._seen:
+                self.Modified()
+                return True
+        return False
+
+    def RequestData(self, request, inInfo, outInfo):
+        with errors_shown(self):
+            folder = run_files.folder_of_run(self._file)
+            self._seen = run_files.state_of(folder)
+            found = run_files.newest_frame(folder, self._name)
+            if found is None:  # a run that begins anew removes its files
+                return 1
+            run_files.without_rounding(found)
+            self._add_arrows(found.GetPointData())
+            vtkUnstructuredGrid.GetData(outInfo, 0).ShallowCopy(found)
+        return 1
+
+    def _add_arrows(self, arrays):
+        vectors = arrays.GetArray(self._vectors)
+        if vectors:
+            values = vtk_to_numpy(vectors).astype(float)
+            self._largest = max(self._largest, numpy.linalg.norm(values, axis=1).max(initial=0))
+            arrays.AddArray(vtk_array("arrow", values * (self._length / self._largest if self._largest else 0)))
 
 
 @smproxy.source(name="SinewTables", label="Sinew Tables")

@@ -58,6 +58,9 @@ class RestShape:
     def gradients(self, now: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """F (n, 3, 3) and the mean of |dx - F dX|^2 over the neighbors (n,), of the points (n, 3) at `now`, in the same
         order; not-a-number for points that are so there, and where the neighbors lie in a plane."""
+    def arrays(self, now: ArrayLike) -> dict[str, NDArray[np.float64]]:
+        """What follows from these, by name: F and R of F = R U (n, 9), row by row, strain (Green-Lagrange; XX, YY, ZZ, XY,
+        YZ, XZ), stretch (the largest first), J, strain_eq, D2min, and rotation, the angle of R in degrees."""
 
 class Body:
     """Particles at rest, filled by fill() or made from arrays."""

@@ -259,6 +259,36 @@ std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& stat
   return columns;
 }
 
+std::vector<Column> deformation_arrays(const RestShape& rest, const Points& now) {
+  std::vector<AffineFit> fits(now.size());
+  for_each_particle(now.size(), [&](std::size_t i) { fits[i] = affine_fit(rest, now, i); });
+  const auto of_fit = [&]<std::size_t n>(std::string_view name, Values<n> (*of)(const Mat3&)) {
+    Values<n> none;
+    none.fill(not_measured);
+    return filled<n>(name, fits.size(), [&](std::size_t i) {
+      return fits[i].F.array().isFinite().all() ? of(fits[i].F) : none;
+    });
+  };
+  return {of_fit("F", row_by_row),
+          of_fit(
+              "J", +[](const Mat3& F) { return Values<1>{F.determinant()}; }),
+          of_fit("strain", green_lagrange),
+          of_fit("stretch", stretches),
+          of_fit(
+              "strain_eq",
+              +[](const Mat3& F) {
+                const Vec3 squares = eigenvalues(F.transpose() * F).cwiseMax(flattest);
+                return Values<1>{equivalent(squares.array().log() / 2, 2.0 / 3)};
+              }),
+          filled<1>("D2min", fits.size(), [&](std::size_t i) { return Values<1>{fits[i].D2min}; }),
+          of_fit(
+              "R", +[](const Mat3& F) { return row_by_row(rotation_part(F)); }),
+          of_fit(
+              "rotation", +[](const Mat3& F) {
+                return Values<1>{degrees(Eigen::AngleAxisd(rotation_part(F)).angle())};
+              })};
+}
+
 namespace {
 
 const char* why_undefined(std::string_view name) {

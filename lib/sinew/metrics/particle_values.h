@@ -51,6 +51,10 @@ ParticleValues particle_values(const RestBody& rest, const FrameState& state);
 std::vector<Column> particle_arrays(const RestBody& rest, const FrameState& state,
                                     std::span<const std::string_view> names);
 
+/// F, J, strain, stretch, strain_eq, D2min, R and rotation (R of F = R U, row by row, and its
+/// angle, degrees) of any points that have moved to `now`: see affine_fit(). In parallel.
+std::vector<Column> deformation_arrays(const RestShape& rest, const Points& now);
+
 /// Whether the neighbors of some particle define its deformation.
 bool has_strain(const RestBody& rest);
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Deformation of points between two moments, by least squares over the neighbors at the first."""
+"""Deformation of points between two moments, by the Python package sinew."""
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkStringArray
@@ -8,7 +8,6 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSet, vtkPointSet,
 from .common import Refused, block_named, flagged, leaves, package, texts, vtk_array
 
 ID_NAMES = ("id", "ID", "Id", "ids", "particle_id", "GlobalIds", "GlobalNodeId", "GlobalPointIds", "vtkOriginalPointIds")
-PAIRS_AT_ONCE = 1 << 22
 FARTHEST = 1e100  # products of three coordinates remain numbers
 
 
@@ -83,37 +82,6 @@ def points_of(data, id_array):
     return positions, ids
 
 
-def cells_of(points, size):
-    """Points sorted by cells of a grid of that size, with the keys of their cells and the grid's strides."""
-    cell = numpy.floor((points - points.min(0)) / size).astype(numpy.int64) + 1
-    counts = cell.max(0) + 2
-    strides = numpy.array([1, counts[0], counts[0] * counts[1]])
-    keys = cell @ strides
-    order = numpy.argsort(keys, kind="stable")
-    return order, keys[order], strides
-
-
-def pairs_within(points, cutoff):
-    """Yields arrays i, j of pairs closer than the cutoff, each in both directions."""
-    order, keys, strides = cells_of(points, cutoff)
-    sorted_points = points[order]
-    for offset in numpy.ndindex(3, 3, 3):
-        shifted = keys + (numpy.array(offset) - 1) @ strides
-        first = numpy.searchsorted(keys, shifted, "left")
-        count = numpy.searchsorted(keys, shifted, "right") - first
-        ends = numpy.cumsum(count)
-        begin = 0
-        while begin < len(points):
-            done = ends[begin - 1] if begin else 0
-            end = max(begin + 1, int(numpy.searchsorted(ends, done + PAIRS_AT_ONCE, "right")))
-            each = count[begin:end]
-            i = numpy.repeat(numpy.arange(begin, end), each)
-            j = numpy.arange(each.sum()) - numpy.repeat(ends[begin:end] - each - done, each) + numpy.repeat(first[begin:end], each)
-            near = (((sorted_points[i] - sorted_points[j]) ** 2).sum(1) < cutoff * cutoff) & (i != j)
-            yield order[i[near]], order[j[near]]
-            begin = end
-
-
 def radius_of(data, id_array):
     """The largest radius of particles; 0: they have none."""
     radii = [one.GetPointData().GetArray("radius") for one in point_sets(data, id_array)]
@@ -144,110 +112,27 @@ def usual_cutoff(points, radius):
     return 1.2 * usual
 
 
-def inverses(matrices):
-    """Of symmetric 3 x 3 matrices (9, n); not-a-number where the neighbors lie in one plane."""
-    matrices = matrices.T.reshape(-1, 3, 3)
-    sizes = numpy.linalg.eigvalsh(matrices)
-    defined = sizes[:, 0] > 1e-6 * sizes[:, 2]
-    found = numpy.full_like(matrices, numpy.nan)
-    found[defined] = numpy.linalg.inv(matrices[defined])
-    return found
-
-
-class ByNumPy:
-    """Points at rest, whose neighbors are sought anew for each moment."""
-    name = "NumPy (python3-sinew is not found)"
-
-    def __init__(self, points, cutoff):
-        self.points, self.cutoff = points, cutoff
-
-    def gradients(self, now):
-        """F = (sum dx dX^T) (sum dX dX^T)^-1 over neighbors at rest, and the mean of |dx - F dX|^2. Not-a-number where
-        the neighbors lie in one plane. A second pass, over what the first F leaves, makes it exact to rounding."""
-        rest, number = self.points, len(self.points)
-        spread, F, inverse = numpy.zeros((9, number)), numpy.zeros((number, 3, 3)), None
-        for _ in range(2):
-            moved, squares, counts = numpy.zeros((9, number)), numpy.zeros(number), numpy.zeros(number)
-            for i, j in pairs_within(rest, self.cutoff):
-                at_rest, left = rest[j] - rest[i], now[j] - now[i]
-                known = numpy.isfinite(left).all(1)
-                i, at_rest, left = i[known], at_rest[known], left[known]
-                left = left - numpy.einsum("nab,nb->na", F[i], at_rest)
-                counts += numpy.bincount(i, minlength=number)
-                squares += numpy.bincount(i, (left ** 2).sum(1), number)
-                for a in range(3):
-                    for b in range(3):
-                        moved[3 * a + b] += numpy.bincount(i, left[:, a] * at_rest[:, b], number)
-                        if inverse is None:
-                            spread[3 * a + b] += numpy.bincount(i, at_rest[:, a] * at_rest[:, b], number)
-            if inverse is None:
-                inverse = inverses(spread)
-            F = F + moved.T.reshape(-1, 3, 3) @ inverse
-        with numpy.errstate(invalid="ignore", divide="ignore"):
-            return F, numpy.where(numpy.isfinite(F[:, 0, 0]), squares / counts, numpy.nan)
-
-
-class ByModule:
-    """Points at rest, whose neighbors the package sinew finds once."""
-
-    def __init__(self, module, points, cutoff):
-        self.name = f"python3-sinew {module.__version__}"
-        try:
-            self._shape = module.RestShape(points, cutoff)
-        except module.Error as error:
-            raise Refused(f"{error} (property Cutoff)") from None
-
-    def gradients(self, now):
-        return self._shape.gradients(now)
-
-
 class Rest:
     """The points at rest with their ids, and what is found for them once."""
 
     def __init__(self, data, id_array):
         self.points, self.ids = points_of(data, id_array)
         self.radius = radius_of(data, id_array)
-        self._fit = None, None
+        self._shape = None, None
 
     def is_like(self, other):
         return self.radius == other.radius and numpy.array_equal(self.points, other.points) and \
             numpy.array_equal(self.ids, other.ids)
 
-    def fit(self, cutoff):
-        """What finds gradients over neighbors closer than the cutoff; 0: of particles with radii those that touch, of other
-        points the usual ones."""
-        if self._fit[0] != cutoff:
-            range_of_neighbors = cutoff or usual_cutoff(self.points, self.radius)
-            module = package("RestShape")
-            kind = (lambda *given: ByModule(module, *given)) if module else ByNumPy
-            self._fit = cutoff, kind(self.points, range_of_neighbors)
-        return self._fit[1]
-
-
-def determinants(F):
-    return (F[:, 0] * numpy.cross(F[:, 1], F[:, 2])).sum(1)
-
-
-def deformation_arrays(F, away):
-    """The arrays by name, as sinew measures them; tensors as ParaView orders them."""
-    known = numpy.isfinite(F).all((1, 2))
-    U, stretch, Vt = (numpy.full(shape, numpy.nan) for shape in (F.shape, F.shape[:2], F.shape))
-    U[known], stretch[known], Vt[known] = numpy.linalg.svd(F[known])
-    J = determinants(F)
-    turn = numpy.sign(determinants(U @ Vt))
-    U[:, :, 2] *= turn[:, None]
-    R = U @ Vt
-    C = numpy.swapaxes(F, 1, 2) @ F
-    E = (C - numpy.eye(3)) / 2
-    with numpy.errstate(invalid="ignore", divide="ignore"):
-        log = numpy.log(stretch)
-    deviator = log - log.mean(1, keepdims=True)
-    cosine = (numpy.trace(R, axis1=1, axis2=2) - 1) / 2
-    axial = numpy.stack([R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]], 1) / 2
-    angle = numpy.degrees(numpy.arctan2(numpy.linalg.norm(axial, axis=1), cosine))
-    return {"F": F.reshape(-1, 9), "J": J, "strain": numpy.stack([E[:, 0, 0], E[:, 1, 1], E[:, 2, 2], E[:, 0, 1], E[:, 1, 2], E[:, 0, 2]], 1),
-            "stretch": stretch, "strain_eq": numpy.sqrt(2 / 3 * (deviator ** 2).sum(1)), "D2min": away, "R": R.reshape(-1, 9),
-            "rotation": angle}
+    def shape(self, module, cutoff):
+        """With neighbors closer than the cutoff; 0: of particles with radii those that touch, of other points the usual
+        ones."""
+        if self._shape[0] != cutoff:
+            try:
+                self._shape = cutoff, module.RestShape(self.points, cutoff or usual_cutoff(self.points, self.radius))
+            except module.Error as error:
+                raise Refused(f"{error} (property Cutoff)") from None
+        return self._shape[1]
 
 
 COMPONENTS = {9: ("XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"), 6: ("XX", "YY", "ZZ", "XY", "YZ", "XZ"), 3: ("1", "2", "3")}
@@ -301,10 +186,12 @@ def add_deformation(output, reference, data, cutoff, id_array):
     """The points of `data` with what has happened to them since the reference."""
     if cutoff < 0:
         raise Refused("the cutoff is below 0; give 0, or the range of neighbors")
+    module = package("RestShape")
+    if module is None:
+        raise Refused("the Python package sinew is not found; install python3-sinew, or name its folder in PYTHONPATH")
     now, ids = points_of(data, id_array)
     moved, place = matched(reference, now, ids)
-    fit = reference.fit(cutoff)
-    arrays = deformation_arrays(*fit.gradients(moved))
+    arrays = reference.shape(module, cutoff).arrays(moved)
     fill_points(output, point_sets(data, id_array), now, arrays)
     for name, values in arrays.items():
         placed = numpy.where((place >= 0).reshape(-1, *[1] * (values.ndim - 1)), values[place], numpy.nan)
@@ -312,4 +199,4 @@ def add_deformation(output, reference, data, cutoff, id_array):
         for component, label in enumerate(COMPONENTS.get(array.GetNumberOfComponents(), ())):
             array.SetComponentName(component, label)
         output.GetPointData().AddArray(array)
-    output.GetFieldData().AddArray(texts("found_by", [fit.name]))
+    output.GetFieldData().AddArray(texts("found_by", [f"python3-sinew {module.__version__}"]))

@@ -2,17 +2,19 @@
 """The files of a run: its series, read by ParaView's own reader, and its tables."""
 import csv
 import io
+import json
 import math
 import os
 import xml.etree.ElementTree as ET
 
 import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT, vtkDataArray, vtkDataArraySelection
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from .common import Refused
 
-SERIES = ("particles", "surface", "volume", "bones", "frames", "obstacles", "supports", "bonds")
 TABLES = ("metrics", "bones", "supports", "probes")
 OWNERS = ("bone", "name")  # columns that say whose a row is
 
@@ -65,15 +67,52 @@ def time_of(path):
         return 0
 
 
+def series_of(folder):
+    """All series that a run may have, as its record lists them; those of older runs by their arrays. None until a run has
+    written it."""
+    try:
+        with open(checked(os.path.join(folder, "run.json")), encoding="utf-8") as file:
+            record = json.load(file)
+        series = record.get("series") or record.get("arrays") or {}
+        return {name: row for name, row in series.items() if name.isidentifier() and isinstance(row, dict)}
+    except (OSError, ValueError, AttributeError, RecursionError):
+        return {}
+
+
 def state_of(folder):
     """Changes whenever a series has more frames."""
-    return folder, [time_of(os.path.join(folder, f"{name}.pvd")) for name in SERIES]
+    return folder, [(name, time_of(os.path.join(folder, f"{name}.pvd"))) for name in series_of(folder)]
 
 
 def open_series(folder):
     """Those that have frames."""
-    found = ((name, rows_of(os.path.join(folder, f"{name}.pvd"))) for name in SERIES)
+    found = ((name, rows_of(os.path.join(folder, f"{name}.pvd"))) for name in series_of(folder))
     return [OpenSeries(name, folder, rows) for name, rows in found if rows]
+
+
+def newest_frame(folder, name):
+    """The frame of a series at the last time that it and all series have which every run writes; None: there is none."""
+    table, every = series_of(folder), vtkDataArraySelection()
+    there = [one for one in open_series(folder) if one.name == name or "asked_by" not in table[one.name]]
+    for one in there:
+        if one.name == name:
+            one.choose(every)
+            return one.at(min(other.rows[-1][0] for other in there), every)
+    return None
+
+
+def without_rounding(grid):
+    """Zeros in place of arrays that are nowhere above 1e-9 of their scale: of pure numbers 1, of lengths the size of the
+    whole. Drawn, such a range would be noise in all colors."""
+    scales = {"1": 1, "m": grid.GetLength()}
+    for index in range(grid.GetPointData().GetNumberOfArrays()):
+        array = grid.GetPointData().GetArray(index)
+        scale = scales.get(array.GetInformation().Get(vtkDataArray.UNITS_LABEL()) if array else None, 0)
+        if scale and array.GetDataType() in (VTK_FLOAT, VTK_DOUBLE) and abs(vtk_to_numpy(array)).max(initial=0) < 1e-9 * scale:
+            zeros = array.NewInstance()
+            zeros.DeepCopy(array)
+            zeros.Fill(0)
+            grid.GetPointData().AddArray(zeros)
 
 
 def complete(path, folder):
