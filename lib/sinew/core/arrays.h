@@ -66,7 +66,7 @@ std::vector<std::string_view> frame_arrays(std::string_view words);
 RequestedArrays requested_arrays(std::string_view words);
 
 struct SkinArrays {
-  bool usual = true;  ///< those that the surface has unasked: strain_eq, von_mises
+  bool usual = true;                      ///< arrays that need no request: strain_eq, von_mises
   std::vector<std::string_view> frame;    ///< see frame_arrays()
   std::vector<std::string_view> contact;  ///< see contact_arrays()
   RequestedArrays requested;

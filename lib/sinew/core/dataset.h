@@ -32,7 +32,7 @@ Column column(std::string name, const Points& vectors);
 /// made of them. What they are found from must outlive them.
 template <class T>
 struct Computed {
-  std::size_t count = 0;  ///< of values
+  std::size_t count = 0;  ///< number of values
   /// Writes values [begin, end) to `to`; called from several threads.
   std::function<void(std::size_t begin, std::size_t end, T* to)> put;
 };
@@ -53,7 +53,7 @@ struct Dataset {
   CellKind kind = CellKind::vertex;
   std::vector<std::int32_t> connectivity;  ///< points of each cell, one cell after the other
   std::vector<std::int32_t> lines;         ///< ends of line cells, which follow those cells
-  std::vector<ComputedColumn> computed;    ///< of the points: written before point_columns
+  std::vector<ComputedColumn> computed;    ///< point columns that are written before point_columns
   std::vector<Column> point_columns;
   std::vector<Column> cell_columns;
   std::vector<Column> field_columns;  ///< one row each: values for the whole file

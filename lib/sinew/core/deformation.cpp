@@ -106,7 +106,7 @@ AffineFit affine_fit(const RestShape& rest, const Points& now, std::size_t i) {
 
 Mat3 rotation_part(const Mat3& F) {
   auto [U, sizes, V] = singular_values(F);
-  if (!(sizes[1] > flat * sizes[0]))  // of a line: the shortest rotation; of a point: none
+  if (!(sizes[1] > flat * sizes[0]))  // line: the shortest rotation; point: none
     return sizes[0] > 0 ? shortest_rotation(V.col(0), U.col(0)).toRotationMatrix()
                         : Mat3(Mat3::Identity());
   if ((U * V.transpose()).determinant() < 0) U.col(2) *= -1;  // the least stretched direction

@@ -47,7 +47,7 @@ class Error : public std::runtime_error {
 
  private:
   Exit exit_;
-  std::string file_;  ///< of the place before it
+  std::string file_;  ///< file of the place before the message
   std::string key_;
 };
 

@@ -180,7 +180,7 @@ class RegularFile {
     size_ = static_cast<std::uint64_t>(status.st_size);
   }
 
-  std::uint64_t size() const { return size_; }  ///< that it tells; files of /proc tell 0
+  std::uint64_t size() const { return size_; }  ///< size as fstat gives it; 0 for files of /proc
 
   /// Calls visit(piece) for what follows up to the end, or until there were `most` bytes.
   template <class Visit>

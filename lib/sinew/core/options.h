@@ -104,7 +104,7 @@ struct MaterialOptions {
   double young_modulus = 10e3;
   std::optional<Vec3> modulus_direction;
   double poisson_ratio = 0.45;
-  std::optional<bool> isotropic;  ///< by default in FCC
+  std::optional<bool> isotropic;  ///< default: true, in HCP false
   std::optional<double> k1;
   std::optional<double> k2;
   double lambda = 1;
@@ -112,12 +112,12 @@ struct MaterialOptions {
   double b = 2.6;
   double damping = 0.5;
   std::optional<double> damping_ratio;
-  std::optional<DampingForm> damping_form;      ///< by default rigid with bonds, else the paper's
+  std::optional<DampingForm> damping_form;      ///< default: rigid with bonds, else the paper's
   std::optional<std::vector<double>> rayleigh;  ///< alpha, 1/s, and beta, s
   std::optional<double> breaking_strain;
   std::optional<double> fracture_energy;
   std::optional<double> yield_strain;
-  std::optional<double> creep_rate;  ///< by default as the scene moves: see creep_rate_of()
+  std::optional<double> creep_rate;  ///< default follows the scene's motion: see creep_rate_of()
   std::optional<std::vector<double>> relaxation_shares, relaxation_times;  ///< g_i and tau_i
   double friction = 0;
 };
@@ -137,9 +137,9 @@ struct MaterialPreset {
   double density;        ///< kg/m^3
   double young_modulus;  ///< Pa
   double poisson_ratio;  ///< in the range of bonded_volume
-  double
-      damping_ratio;  ///< of the lowest elastic mode: our choice, such bodies swing once or twice
-  std::optional<double> yield_strain;  ///< of a material that flows
+  /// Ratio of the lowest elastic mode: our choice, such bodies swing once or twice.
+  double damping_ratio;
+  std::optional<double> yield_strain;  ///< strain at which materials that flow yield
   std::string_view what, source;
 };
 

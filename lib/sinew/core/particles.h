@@ -39,8 +39,8 @@ constexpr double rest_neighbor_range(double r) { return 2.2 * r; }
 inline constexpr std::size_t max_neighbors_at_rest = 12;
 
 struct Particles {
-  double radius = 0;  ///< of each particle, m
-  double mass = 0;    ///< of each particle, kg
+  double radius = 0;  ///< radius of each particle, m
+  double mass = 0;    ///< mass of each particle, kg
 
   std::vector<double> x, y, z;   ///< positions, m
   std::vector<double> u, v, w;   ///< velocities, m/s

@@ -76,7 +76,7 @@ struct SimulationState {
   bool kicked = false;     ///< velocities are half a step behind positions (velocity Verlet)
   std::variant<MovingInDouble, MovingInSingle> moving;
   std::vector<std::uint32_t> order;   ///< each particle's place in the caller's order
-  FixedPointUnits fixed_point_units;  ///< of double precision the origin
+  FixedPointUnits fixed_point_units;  ///< double precision uses the origin alone
   std::vector<StatePart> parts;       ///< each name once
   /// An earlier state, to which the simulation may have to go back; none: this one.
   std::shared_ptr<const SimulationState> begun = {};

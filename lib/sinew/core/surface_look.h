@@ -39,7 +39,7 @@ struct SurfaceLook {
     double opacity = 1;
     std::string image;  ///< path of the texture over the color, or empty
   };
-  using Corners = std::array<int, 3>;  ///< of a face, -1 for none
+  using Corners = std::array<int, 3>;  ///< indices into coordinates for a face, -1 for none
 
   std::vector<std::array<double, 2>> coordinates;  ///< u to the right, v up
   std::vector<Corners> corners;                    ///< per face: coordinates of each
