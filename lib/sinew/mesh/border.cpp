@@ -52,7 +52,7 @@ void for_each_side(const std::vector<std::array<int, 3>>& faces, Visit&& visit) 
 }  // namespace
 
 std::vector<EdgeUse> edge_uses(const Triangles& surface) {
-  std::vector<std::size_t> end(surface.points.size() + 1, 0);  // of each low point's uses
+  std::vector<std::size_t> end(surface.points.size() + 1, 0);  // end of the uses of each low point
   for_each_side(surface.faces, [&](const EdgeUse& use) { ++end[use.low + 1]; });
   for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
   std::vector<EdgeUse> uses(end.back());

@@ -60,7 +60,7 @@ struct Border {
   std::size_t holes = 0;          ///< loops
   std::size_t edges = 0;          ///< open edges
   std::size_t crowded_edges = 0;  ///< edges of three or more faces, open or not
-  double length = 0;              ///< of the open edges, m
+  double length = 0;              ///< total length of the open edges, m
 };
 
 /// Forward minus backward uses of one edge.

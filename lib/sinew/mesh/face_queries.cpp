@@ -29,7 +29,7 @@ RoundedKernel::Point_3 rounded_point(const Vec3& p) { return {p.x(), p.y(), p.z(
 
 struct NearestFace::Tree {
   RoundedFaces faces;
-  std::vector<std::size_t> number;  ///< of each face in the surface
+  std::vector<std::size_t> number;  ///< number of each face in the surface
   Boxes boxes;
 };
 

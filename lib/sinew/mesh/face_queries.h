@@ -16,7 +16,7 @@ namespace sinew {
 
 struct NearestOnFaces {
   Vec3 place;        ///< on the surface, m
-  std::size_t face;  ///< that contains it; one of several where they meet
+  std::size_t face;  ///< face that contains it; one of several where they meet
 };
 
 class NearestFace {

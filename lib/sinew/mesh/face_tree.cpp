@@ -16,7 +16,7 @@ using Kernel = CGAL::Simple_cartesian<double>;
 
 Kernel::Point_3 point_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-constexpr double relative_rounding = 1e-13;  // of distances, over the size of coordinates
+constexpr double relative_rounding = 1e-13;  // rounding of distances over the size of coordinates
 
 /// The longest axis, as CGAL's tree picks one of equal ones.
 int longest_axis(const Box& box) {

@@ -71,9 +71,9 @@ class FaceTree {
   Triangles surface_;
   std::vector<std::uint32_t> order_;
   std::vector<Face> sorted_;
-  std::vector<Box> boxes_;  ///< of the faces in order
+  std::vector<Box> boxes_;  ///< boxes of the faces in order
   std::vector<Box> nodes_;
-  double rounding_ = 0;  ///< of distances, m
+  double rounding_ = 0;  ///< rounding of distances, m
 };
 
 }  // namespace sinew

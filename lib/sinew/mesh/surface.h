@@ -40,9 +40,9 @@ struct CleaningCounts {
   std::size_t faces_shared = 0;     ///< pairs of opposite faces between touching solids, left out
   std::size_t faces_flat = 0;       ///< faces without area, kept: they may close the surface
   std::size_t faces_turned = 0;     ///< faces whose direction was reversed
-  std::size_t holes_closed = 0;     ///< by faces_added new faces, where that was asked for
+  std::size_t holes_closed = 0;     ///< holes closed by faces_added new faces, where asked for
   std::size_t faces_added = 0;
-  std::size_t faces_wrapped = 0;  ///< of the skin that replaced the mesh, where asked for
+  std::size_t faces_wrapped = 0;  ///< faces of the skin that replaced the mesh, where asked for
   std::size_t edges_twisted = 0;  ///< edges of two faces that cannot agree (on a Moebius strip)
 };
 
@@ -78,8 +78,8 @@ struct Surface {
   Triangles caps;
   Border border;
   CleaningCounts cleaning;
-  std::vector<std::size_t> first_face = {};  ///< of each of several joined meshes; empty: one mesh
-  std::string warning;                       ///< of the reader; "": none
+  std::vector<std::size_t> first_face = {};  ///< first face of each joined mesh; empty: one mesh
+  std::string warning;                       ///< warning of the reader; "": none
   double seconds_reading = 0, seconds_cleaning = 0;
 
   bool closed() const { return caps.faces.empty(); }

@@ -27,7 +27,7 @@ std::vector<Corners> corners_of(const Triangles& surface) {
 
 struct SurfaceDistance::Tree {
   Triangles surface;
-  double size;  ///< of its box, m
+  double size;  ///< diagonal of its box, m
   Winding winding;
   NearestFace nearest;
 };

@@ -117,9 +117,9 @@ class Distances {
 
   const Triangles &from_, &other_;
   const FaceTree& to_;
-  std::vector<std::uint32_t> order_;   ///< of the faces: neighbors are near each other
+  std::vector<std::uint32_t> order_;   ///< order of the faces: neighbors are near each other
   bool same_;                          ///< mesh: the same place of the other one is likely near
-  std::vector<std::uint32_t> finder_;  ///< of each corner, the face with which it is searched
+  std::vector<std::uint32_t> finder_;  ///< face with which each corner is searched
   std::vector<double> corners_, centers_;
 };
 

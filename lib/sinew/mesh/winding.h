@@ -28,7 +28,7 @@ class Winding {
  private:
   struct Node {
     Box box;
-    int begin, end;  ///< of its faces
+    int begin, end;  ///< range of its faces
     int second = 0;  ///< its second child, the first follows it; 0: no children
   };
 

@@ -37,7 +37,7 @@ std::vector<std::array<Neighbor, 3>> neighbors_of(std::size_t faces,
 
 /// Turns each patch from the orientation of its first face to that of most of its area.
 void follow_most(Patches& patches, const Triangles& surface) {
-  std::vector<double> excess(patches.count, 0);  // of area oriented against the first face
+  std::vector<double> excess(patches.count, 0);  // area oriented against the first face
   for (std::size_t i = 0; i < surface.faces.size(); ++i)
     excess[patches.of_face[i]] +=
         (patches.turned[i] ? 1 : -1) * face_area(surface, surface.faces[i]);

@@ -21,14 +21,14 @@ struct PlyType {
   std::string_view other;  ///< int8 and so on: the same type's second name
   int bytes;
   bool real;               ///< float or double
-  std::int64_t low, high;  ///< of an integer type
+  std::int64_t low, high;  ///< limits of an integer type
 };
 
 struct PlyProperty {
   std::string name;
   const PlyType* type;
   const PlyType* count = nullptr;  ///< the type of a list's length; nullptr for single numbers
-  int axis = -1;                   ///< of a vertex's coordinate: 0, 1, 2
+  int axis = -1;                   ///< axis of a vertex's coordinate: 0, 1, 2
   bool corners = false;            ///< whether it is the list of a face's corners
 };
 
