@@ -40,10 +40,10 @@ using Mesh = CGAL::Surface_mesh<Point>;
 using Flow = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 
 constexpr double wanted_faces = 6000;   // half a second of contraction
-constexpr double min_faces = 800;       // of each part
-constexpr double small_part = 0.01;     // of the largest part's volume
-constexpr double wrapped_faces = 6000;  // of CGAL's wrap, 2.5 to a square of its length
-constexpr int rounds = 3;               // of remeshing: more change little
+constexpr double min_faces = 800;       // least number for each part
+constexpr double small_part = 0.01;     // fraction of the largest part's volume
+constexpr double wrapped_faces = 6000;  // faces of CGAL's wrap, 2.5 to a square of its length
+constexpr int rounds = 3;               // passes of remeshing: more change little
 constexpr std::size_t max_contractions = 500;
 constexpr std::ptrdiff_t max_handles = 40;
 constexpr std::size_t max_parts = 40;  // each takes a tenth of a second
@@ -168,7 +168,7 @@ void measure_inner(const Triangles& surface, CurveGraph& graph) {
 
 /// A spike of almost no area would be cut into pieces without end.
 void refuse_needle(const Triangles& surface) {
-  constexpr double max_pieces = 1e4;  // of an edge, in the mean over as many faces as are wanted
+  constexpr double max_pieces = 1e4;  // pieces per edge, in the mean over as many faces as wanted
   double area = 0, lengths = 0;
   for (const auto& face : surface.faces) {
     area += face_area(surface, face);

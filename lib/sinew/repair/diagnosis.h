@@ -23,9 +23,9 @@ Diagnosis diagnose(const Surface& surface);
 // The defects of a surface, as geometry to be drawn over it.
 
 enum class EdgeDefect {
-  open,     ///< of one face
-  crowded,  ///< of three faces or more
-  twisted,  ///< of two faces that cannot be oriented consistently
+  open,     ///< edge of one face
+  crowded,  ///< edge of three faces or more
+  twisted,  ///< edge of two faces that cannot be oriented consistently
 };
 
 struct DefectiveEdge {

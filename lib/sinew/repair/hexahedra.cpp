@@ -30,7 +30,7 @@ std::vector<double> sides(double low, double high, double size, const std::vecto
 }  // namespace
 
 std::optional<Box> axis_box(const Triangles& surface) {
-  constexpr double slack = 1e-6;  // of its volume and area
+  constexpr double slack = 1e-6;  // fraction of its volume and area
   const Box box = bounds(surface.points);
   if (box.isEmpty() || !(box.volume() > 0)) return std::nullopt;
   const Vec3 size = box.sizes();

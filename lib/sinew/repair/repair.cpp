@@ -117,9 +117,9 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-constexpr double offset_fraction = 1.0 / 30;   // of alpha: CGAL's default
-constexpr double faces_per_square = 2.5;       // of edge alpha: measured, without leaks
-constexpr double max_faces = 1e6;              // minutes
+constexpr double offset_fraction = 1.0 / 30;  // fraction of alpha: CGAL's default
+constexpr double faces_per_square = 2.5;  // faces per square of edge alpha: measured, without leaks
+constexpr double max_faces = 1e6;         // minutes
 constexpr std::size_t max_points = 2'000'000;  // some GB, where it leaks into every corner
 
 const char* const larger = "give a larger length or close the holes";

@@ -28,7 +28,7 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::C
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 constexpr double sharp = 30;               // degrees, between the normals at an edge
-constexpr double surface_fraction = 0.05;  // of the size: distance of faces from the surface
+constexpr double surface_fraction = 0.05;  // distance of faces from the surface, over the size
 constexpr double min_face_angle = 25;      // degrees
 constexpr double max_slender = 2.5;        // radius of the sphere around over the shortest edge
 
