@@ -10,7 +10,7 @@ namespace {
 
 /// Lengths in a body of that size (m), 0 where they are only rounding.
 double without_rounding(double length, double size) {
-  constexpr double rounding = 1e-13;  // of sums over a million particles
+  constexpr double rounding = 1e-13;  // relative rounding of sums over a million particles
   return std::abs(length) <= rounding * size ? 0 : length;
 }
 

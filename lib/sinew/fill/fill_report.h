@@ -26,30 +26,30 @@ struct BodyReport {
 /// Every site of the lattice checked against CGAL.
 struct Verification {
   std::size_t sites = 0;
-  std::size_t on_surface = 0;  ///< by CGAL
+  std::size_t on_surface = 0;  ///< sites on the surface according to CGAL
   std::size_t mismatches = 0;  ///< sites inside by one of the two and not by the other
 };
 
 struct FillReport {
   std::size_t particles = 0;
   std::optional<int> wanted;  ///< particles, where a count was requested
-  std::uint64_t sites = 0;    ///< of the lattice in the mesh's box
+  std::uint64_t sites = 0;    ///< sites of the lattice in the mesh's box
   std::size_t ties = 0;       ///< sites on the surface: outside
   std::size_t kept_out = 0;   ///< sites inside but too close to the surface
   double radius = 0;          ///< m
-  double mass = 0;            ///< of one particle, kg
-  double volume = 0;          ///< that the mass is of, m^3: the mesh's, else the particles'
+  double mass = 0;            ///< mass of one particle, kg
+  double volume = 0;          ///< volume of that mass, m^3: the mesh's, else the particles'
   bool volume_of_mesh = true;
   Moments mesh, packed;
-  Vec3 box_size = Vec3::Zero();                                       ///< of the mesh, m
+  Vec3 box_size = Vec3::Zero();                                       ///< size of the mesh's box, m
   std::vector<std::size_t> neighbors = std::vector<std::size_t>(13);  ///< particles with 0, 1, ..
-  double smallest_distance = 0, mean_distance = 0;  ///< to the nearest, over 2r; 0: none touch
+  double smallest_distance = 0, mean_distance = 0;  ///< nearest neighbors, over 2r; 0: none touch
   /// Young's modulus of equal springs between touching particles, along the softest and stiffest
   /// direction over the mean; 0: none.
   std::array<double, 2> modulus_range = {};
   std::vector<BodyReport> bodies;
   int cavities = 0;
-  int groups = 0;  ///< of particles connected by touching
+  int groups = 0;  ///< groups of particles connected by touching
   int shallowest = 0;
   int deepest = 0;  ///< winding number; above 1 where parts of the mesh overlap
   bool closed = true;

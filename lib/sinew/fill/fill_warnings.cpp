@@ -15,8 +15,8 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-constexpr double much_lost = 0.01;           // of the volume
-constexpr double much_missed = 0.05;         // of the requested count
+constexpr double much_lost = 0.01;           // fraction of the volume
+constexpr double much_missed = 0.05;         // fraction of the requested count
 constexpr double coarse = 1e-5;              // radii: strains of bonds are as coarse
 constexpr double huge = 100, minute = 1e-3;  // m: outside of these the unit may be wrong
 

@@ -56,7 +56,7 @@ BodySpace::BodySpace(const Surface& given, const PackOptions& options)
 FilledSites fill_sites(const BodySpace& space, const PackOptions& options, double radius) {
   FilledSites best = fill_at(space, options, radius);
   if (!options.count || best.runs.empty()) return best;
-  const auto fraction = [&](const FilledSites& filled) {  // of the wanted count
+  const auto fraction = [&](const FilledSites& filled) {  // fraction of the wanted count
     return static_cast<double>(count_of(filled.runs)) / *options.count;
   };
   const auto miss = [&](const FilledSites& filled) { return std::abs(std::log(fraction(filled))); };

@@ -20,7 +20,7 @@ struct BodySpace {
 
   LatticeFrame placement;
   Surface surface;
-  Box box;  ///< that the lattice fills
+  Box box;  ///< box that the lattice fills
   std::optional<Vec3> lattice_origin;
 };
 

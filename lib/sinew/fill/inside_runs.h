@@ -13,7 +13,7 @@
 namespace sinew {
 
 struct InsideRuns {
-  std::vector<Run> runs;            ///< by row, then site; never touching with the same body
+  std::vector<Run> runs;            ///< runs by row, then site; never touching with the same body
   std::vector<RowSite> on_surface;  ///< sites on the surface: not inside
   int shallowest = 0;               ///< smallest winding number of closed surfaces; below 0 where
                                     ///< one is inside out

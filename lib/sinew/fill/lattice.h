@@ -35,18 +35,18 @@ struct LatticeRow {
 struct LatticeLayer {
   std::size_t first_row;  ///< index into Lattice::rows
   int rows;
-  int across;  ///< of the first row; each next one is 2 (FCC) or 3 (HCP) farther
+  int across;  ///< place of the first row across; each next one is 2 (FCC) or 3 (HCP) farther
 };
 
 struct Lattice {
   Packing packing;
-  double radius;                 ///< of the particles, m
+  double radius;                 ///< radius of the particles, m
   Vec3 origin;                   ///< a site, m
   Vec3 unit;                     ///< m; FCC: sites are where i + j + k is even, of step sqrt(2) r
-  LatticePlace along;            ///< from a site to the next of its row
+  LatticePlace along;            ///< steps from a site to the next of its row
   LatticePlace low, high;        ///< limits of i, j, k
-  std::vector<LatticeRow> rows;  ///< by z, then across the row: a fixed order
-  std::vector<LatticeLayer> layers;  ///< of k = low[2] .. high[2]
+  std::vector<LatticeRow> rows;  ///< rows by z, then across: a fixed order
+  std::vector<LatticeLayer> layers;  ///< layers k = low[2] .. high[2]
 
   /// Site n of a row, m; exact for any n near the row, also beyond its ends.
   Vec3 site(const LatticeRow& row, int n) const {

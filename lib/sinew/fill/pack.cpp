@@ -114,7 +114,7 @@ void report_particles(const Filling& filling, FillReport& report) {
 void report_lattice(const Lattice& lattice, FillReport& report) {
   double least = HUGE_VAL, sum = 0;
   DirectionalStiffness springs;
-  for (const int layer : {0, 1})  // those of HCP take turns
+  for (const int layer : {0, 1})  // layers of HCP take turns
     for (const LatticePlace& step : lattice.nearest(layer)) {
       const Vec3 bond = lattice.unit.cwiseProduct(Vec3(step[0], step[1], step[2]));
       least = std::min(least, bond.norm());

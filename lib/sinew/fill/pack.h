@@ -20,12 +20,12 @@ namespace sinew {
 
 struct PackOptions {
   Packing packing = Packing::fcc;
-  int seed = 1;                          ///< of a random packing
+  int seed = 1;                          ///< seed of a random packing
   std::optional<double> radius;          ///< m; either this
   std::optional<int> count;              ///< or about this number of particles
   double density = 1000;                 ///< kg/m^3
   std::optional<Vec3> lattice_origin;    ///< position of a site, m; by default the box's center
-  Mat3 lattice_axes = Mat3::Identity();  ///< as columns: a rotation
+  Mat3 lattice_axes = Mat3::Identity();  ///< axes as columns: a rotation
   Keep keep = Keep::center;
   double clearance = 0;             ///< minimal distance from the surface, m
   std::optional<double> thickness;  ///< fill a layer along the surface instead of its inside, m

@@ -68,7 +68,7 @@ struct Reach {
 struct Sides {
   std::array<int, 3> sign;         ///< exact; 0: on the side's line
   std::array<double, 3> leverage;  ///< barycentric weight of the corner opposite to each side
-  double tolerance;                ///< of the sum of weights
+  double tolerance;                ///< tolerance of the sum of weights
 };
 
 class Caster {

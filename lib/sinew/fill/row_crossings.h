@@ -135,7 +135,7 @@ struct RowSite {
 
 struct RowCrossings {
   std::vector<std::size_t> first;   ///< index of each row's first crossing, and the total number
-  std::vector<Crossing> crossings;  ///< by row, then site, then face
+  std::vector<Crossing> crossings;  ///< crossings by row, then site, then face
   std::vector<RowSite> on_surface;  ///< sites exactly on a triangle, sorted, each once
 
   std::span<const Crossing> of(std::size_t row) const {

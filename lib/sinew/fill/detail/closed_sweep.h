@@ -91,7 +91,7 @@ class ClosedSweep {
   const Lattice& lattice_;
   const Surface& surface_;
   const RowCrossings& crossings_;
-  std::vector<int> owner_;  ///< of each component, where there are several
+  std::vector<int> owner_;  ///< owner of each component, where there are several
 };
 
 }  // namespace sinew

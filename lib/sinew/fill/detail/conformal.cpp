@@ -22,7 +22,7 @@ constexpr double room = 1.75;      // radii, least distance of two particles of 
 constexpr double deeper = 0.8;     // radii
 constexpr double behind = 1;       // radii from the layer to particles that it has no room for
 constexpr double moved_along = 6;  // radii below the surface, to where particles may move
-constexpr double stiffness = 3;    // of the outer layer's springs, over that of a pair
+constexpr double stiffness = 3;    // stiffness of the outer layer's springs over that of a pair
 constexpr int rounds = 40, steps_of_each = 10;  // the surface is looked for in each round
 constexpr std::size_t particles_at_a_time = 256;
 
@@ -43,7 +43,7 @@ void refuse(const BodySpace& space, const PackOptions& options, const FilledSite
 /// What the surface is to a particle nearby: a plane.
 struct Plane {
   Vec3 normal = Vec3::Zero();  ///< outward; 0: too far to matter
-  double height = 0;           ///< of the surface along it, m
+  double height = 0;           ///< distance of the surface along it, m
 };
 
 class OuterLayer {

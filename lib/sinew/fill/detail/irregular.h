@@ -17,11 +17,11 @@ namespace sinew {
 
 struct Irregular {
   Points places;                    ///< in the lattice's coordinates, m
-  std::vector<std::int32_t> body;   ///< of the mesh; 0 where that is open
+  std::vector<std::int32_t> body;   ///< body of the mesh; 0 where that is open
   NeighborLists touching;           ///< pairs that are nearest neighbors at rest
-  std::vector<std::int32_t> group;  ///< of particles connected by touching, by their first
+  std::vector<std::int32_t> group;  ///< connected groups, in the order of their first particle
   std::int32_t groups = 0;
-  DirectionalStiffness springs;   ///< of equal springs between them
+  DirectionalStiffness springs;   ///< stiffness of equal springs between them
   double smallest = 0, mean = 0;  ///< distance to the nearest of them, m
 };
 

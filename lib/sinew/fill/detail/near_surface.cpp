@@ -56,7 +56,7 @@ Interval across_reach(const Corners& corners, double distance, double low, doubl
   Interval reach;
   for (int i = 0; i < 3; ++i) {
     const Vec3 &a = corners[i], &b = corners[(i + 1) % 3];
-    Interval part{0, 1};  // of the side
+    Interval part{0, 1};  // range along the side, 0 to 1
     keep(part, b.z() - a.z(), a.z() - low);
     keep(part, a.z() - b.z(), high - a.z());
     if (part.empty()) continue;
@@ -97,7 +97,7 @@ DilatedTriangle::Side DilatedTriangle::side(const Vec3& edge, const Vec3& normal
 
 Interval DilatedTriangle::along(double across, double up) const {
   Interval all;
-  Corners from;  // from the corners to the row's point at which `along` equals the corner's
+  Corners from;  // offsets from the corners to the row's point at which `along` equals the corner's
   for (int i = 0; i < 3; ++i)
     from[i] = {-corners_[i].x(), across - corners_[i].y(), up - corners_[i].z()};
   for (int i = 0; i < 3; ++i) {
@@ -312,7 +312,7 @@ class Rasterizer {
   RowRanges rows_;
   double distance_;
   int tiles_up_, tiles_across_;
-  Points points_;                   ///< of the surface, in the lattice's axes
+  Points points_;                   ///< points of the surface, in the lattice's axes
   std::vector<std::size_t> first_;  ///< index of each tile's first face, and the total number
   std::vector<int> faces_;
 };

@@ -42,10 +42,10 @@ class DilatedTriangle {
 
  private:
   struct Side {
-    Vec3 edge;              ///< from its corner to the next one
+    Vec3 edge;              ///< vector from its corner to the next one
     Vec3 inward;            ///< across the side, in the face
     double across, up;      ///< the direction of `edge` across the rows, of length 1
-    double slope, stretch;  ///< of `edge` and of its length, along, per length across the rows
+    double slope, stretch;  ///< length of `edge` along, and in all, per length across the rows
     double squared_length;
   };
 
@@ -58,7 +58,7 @@ class DilatedTriangle {
   Corners corners_;
   std::array<Side, 3> sides_;
   int longest_ = 0;
-  Vec3 normal_;  ///< of length 1; zero where the face has no area
+  Vec3 normal_;  ///< unit normal; zero where the face has no area
   Vec3 middle_;
   double distance_, squared_distance_;
   double bound_;  ///< radius of a ball around the middle that contains the dilated triangle

@@ -11,8 +11,8 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t points_at_a_time = 1024;
-constexpr double skin = 0.4;                          // of D: how much farther lists reach
-constexpr double longest_move = 0.1;                  // of D, in a step
+constexpr double skin = 0.4;          // fraction of D: how much farther lists reach
+constexpr double longest_move = 0.1;  // fraction of D that a particle moves at most in a step
 constexpr double first_step = 0.1, longest_step = 1;  // mass 1, stiffness 1 / D
 constexpr double first_mixing = 0.1;
 constexpr int patience = 5;  // steps downhill before they grow longer

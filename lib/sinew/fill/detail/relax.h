@@ -16,7 +16,7 @@ namespace sinew {
 
 struct RelaxOptions {
   double distance = 0;             ///< D, below which they push, m
-  const std::vector<char>& fixed;  ///< by particle: whether it stays where it is
+  const std::vector<char>& fixed;  ///< one per particle: whether it stays where it is
   /// A further force on a particle at a place, over that of a pair at d = 0; none: nothing.
   std::function<Vec3(std::size_t particle, const Vec3& place)> field = {};
   int max_steps = 150;

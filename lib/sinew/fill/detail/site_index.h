@@ -29,7 +29,7 @@ class SiteIndex {
 
   const Lattice& lattice_;
   const std::vector<Run>& runs_;
-  std::vector<std::size_t> first_run_, site_;  ///< of each row; sites before each run
+  std::vector<std::size_t> first_run_, site_;  ///< first run of each row; sites before each run
 };
 
 /// The places of the runs' sites, in their order.

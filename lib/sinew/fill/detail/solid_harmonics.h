@@ -40,7 +40,7 @@ class Harmonics {
   }
 
  private:
-  std::array<Number, size> at_{};  ///< those of one m after each other
+  std::array<Number, size> at_{};  ///< values, one m after the other
 };
 
 /// Without the special cases of infinities.

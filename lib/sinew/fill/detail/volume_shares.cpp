@@ -13,7 +13,7 @@ namespace sinew {
 namespace {
 
 constexpr double finer = 1.5;  // radius of the particles over that of the samples
-constexpr int rotations = 24;  // of a cube
+constexpr int rotations = 24;  // number of rotations of a cube
 constexpr double samples_per_particle = rotations * finer * finer * finer;
 constexpr double max_scaling = 1.25, min_volume_share = 0.2;
 
