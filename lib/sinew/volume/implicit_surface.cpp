@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-constexpr double cut_at = 1e-9;  // of an edge: how exactly it is cut
+constexpr double cut_at = 1e-9;  // fraction of an edge: how exactly it is cut
 constexpr int max_rounds = 60;
 
 /// Where a segment crosses the surface, by the Illinois method (Dowell and Jarratt 1971).

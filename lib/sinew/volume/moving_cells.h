@@ -57,7 +57,7 @@ class MovingCells {
   VolumeCells cells_;
   std::vector<std::uint32_t> followers_;  ///< points that are no particles
   Skin skin_;                             ///< these
-  std::vector<double> volume_;            ///< of cells at rest, m^3
+  std::vector<double> volume_;            ///< volumes of cells at rest, m^3
   std::vector<std::array<std::uint32_t, 2>> pairs_;
   std::vector<char> touching_;
   std::vector<std::array<std::uint32_t, 2>> pair_of_cell_;  ///< rows of a pair and a cell

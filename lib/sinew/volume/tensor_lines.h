@@ -35,8 +35,8 @@ struct TensorLine {
 struct TensorLineOptions {
   double spacing = 0;             ///< lines begin this far from others, and end at half of it, m
   double min_value = 0;           ///< where the largest principal value is smaller, lines end
-  std::size_t max_lines = 200;    ///< those with the largest values first
-  std::size_t max_points = 4000;  ///< of each line
+  std::size_t max_lines = 200;    ///< lines with the largest values come first
+  std::size_t max_points = 4000;  ///< limit for each line
 };
 
 /// `tensors`: one per point; lines end where one is not finite, and at the border of the cells.

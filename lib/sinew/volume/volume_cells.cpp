@@ -66,7 +66,7 @@ VolumeCells volume_cells(const Surface& surface, const PackOptions& options, con
 }
 
 DihedralAngles dihedral_angles(const std::array<Vec3, 4>& corners) {
-  std::array<Vec3, 4> normals;  // of the faces opposite to the corners, all outward or all inward
+  std::array<Vec3, 4> normals;  // normals of the opposite faces, all outward or all inward
   for (int v = 0; v < 4; ++v) {
     const Vec3 &a = corners[(v + 1) % 4], &b = corners[(v + 2) % 4], &c = corners[(v + 3) % 4];
     normals[v] = (b - a).cross(c - a) * (v % 2 == 0 ? 1 : -1);

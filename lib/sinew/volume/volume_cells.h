@@ -31,7 +31,7 @@ using Cell = std::array<std::uint32_t, 4>;
 
 struct VolumeCells {
   Points points;                 ///< at rest, n x 3, m
-  std::vector<std::int32_t> id;  ///< of the particle that is exactly there; -1: another point
+  std::vector<std::int32_t> id;  ///< id of the particle that is exactly there; -1: another point
   /// Particle there or, at another point, one beside it: whose place it was moved from,
   /// or on whose edge it lies; -1 where there is none.
   std::vector<std::int32_t> beside;
@@ -59,8 +59,8 @@ struct DihedralAngles {
 DihedralAngles dihedral_angles(const std::array<Vec3, 4>& corners);
 
 struct CellQuality {
-  double volume = 0;           ///< of all cells, m^3
-  double smallest_volume = 0;  ///< of a cell, m^3
+  double volume = 0;           ///< volume of all cells, m^3
+  double smallest_volume = 0;  ///< volume of the smallest cell, m^3
   DihedralAngles angles;       ///< over all cells
 };
 CellQuality quality_of(const VolumeCells& body);

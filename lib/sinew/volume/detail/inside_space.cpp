@@ -8,9 +8,9 @@ namespace sinew {
 namespace {
 
 constexpr int faces_in_a_leaf = 4;
-constexpr double far_away = 3;      // reaches, beyond which faces act together
-constexpr double fine = 1e-7;       // of a segment: how exactly bisection finds a crossing
-constexpr double beside = 1e-5;     // of a segment: where the sides of a face are looked at
+constexpr double far_away = 3;   // reaches, beyond which faces act together
+constexpr double fine = 1e-7;    // fraction of a segment: how exactly bisection finds a crossing
+constexpr double beside = 1e-5;  // fraction of a segment: where the sides of a face are looked at
 constexpr int rounds_of_faces = 4;  // after which no single face is looked for
 
 Vec3 center_of(const Corners& face) { return (face[0] + face[1] + face[2]) / 3; }

@@ -29,7 +29,7 @@ class SolidAngle {
   struct Node {
     int begin, end, second;  ///< its faces; its second child, the first follows it; 0: none
     Vec3 center, area;       ///< m; sum of area vectors, m^2
-    double reach;            ///< of the farthest corner from the center, m
+    double reach;            ///< distance of the farthest corner from the center, m
   };
   int build(int begin, int end);
   double sum(const Node& node, const Vec3& point) const;

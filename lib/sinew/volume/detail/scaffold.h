@@ -17,7 +17,7 @@ namespace sinew {
 
 struct Scaffold {
   Points points;                       ///< m, in the lattice's coordinates
-  std::vector<char> inside;            ///< of the body, per point
+  std::vector<char> inside;            ///< one per point: whether it is in the body
   std::vector<std::int32_t> particle;  ///< there, -1 for none
   std::vector<Cell> cells;             ///< each with a point inside, of either orientation
 };
@@ -47,9 +47,9 @@ class Honeycomb {
 
   Lattice lattice_;
   std::vector<std::int64_t> first_;     ///< site of each row, and their number
-  std::vector<std::int32_t> body_;      ///< that each site is in, -1 for none
+  std::vector<std::int32_t> body_;      ///< body that each site is in, -1 for none
   std::vector<std::int32_t> particle_;  ///< at each site, -1 for none
-  std::vector<int> body_of_;            ///< of each component of a closed surface
+  std::vector<int> body_of_;            ///< body of each component of a closed surface
   int bodies_ = 1;
 };
 

@@ -17,9 +17,9 @@ namespace {
 constexpr std::size_t edges_at_a_time = 64;
 constexpr double longest_touching = 2.4;  // radii
 constexpr double flat_at_crease = 12;     // degrees
-constexpr double thin_wall = 1;           // of the longest edge between touching sites
+constexpr double thin_wall = 1;           // fraction of the longest edge between touching sites
 constexpr double flat_in_wall = 8;        // degrees
-constexpr double nearest_side = 0.22;     // of its thickness, from a point in it
+constexpr double nearest_side = 0.22;     // fraction of its thickness, from a point in it
 constexpr double opposed = -0.6;          // cosine between crossings on two sides of a wall
 
 /// An edge that crosses the border.
@@ -62,7 +62,7 @@ class Stuffing {
   std::vector<std::uint32_t> moved_at_flat_cells() const {
     std::vector<std::uint32_t> found;
     if (std::find(in_wall_.begin(), in_wall_.end(), 1) == in_wall_.end()) return found;
-    std::vector<std::uint32_t> owner(body_.points.size());  // of crossings, their ends inside
+    std::vector<std::uint32_t> owner(body_.points.size());  // end inside of each crossing
     std::iota(owner.begin(), owner.end(), 0U);
     for (const CutEdge& edge : edges_)
       if (edge.open) owner[edge.point] = edge.inside;
