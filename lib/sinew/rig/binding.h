@@ -62,14 +62,14 @@ struct BoundRegion {
   int bone = no_bone;
   std::vector<std::uint32_t> ids;  ///< ascending
   std::optional<Box> box;          ///< m, its border included
-  Vec3 center = Vec3::Zero();      ///< of the ball, m
-  double radius = -1;              ///< of the ball, m; below 0: no ball
+  Vec3 center = Vec3::Zero();      ///< center of the ball, m
+  double radius = -1;              ///< radius of the ball, m; below 0: no ball
 
   bool holds(std::size_t particle, const Vec3& rest) const;
 };
 
 struct BindOptions {
-  double radius = 0;  ///< of the particles, m; their volume is that of closest packing
+  double radius = 0;  ///< radius of the particles, m; their volume is that of closest packing
   /// Nearest neighbors of the particles at rest, by which paths inside go; nullptr: searched.
   const NeighborLists* neighbors = nullptr;
   bool inside = false;    ///< nearest by the path inside the body

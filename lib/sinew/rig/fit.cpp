@@ -88,7 +88,7 @@ double squared_distance(const Vec3& point, const Vec3& from, const Vec3& to) {
 
 // A bone that lies outside is worse than a part of the mesh that is far from its bone; but one far
 // away, as a root on the ground, must not draw the others after it.
-constexpr double weight_outside = 4, farthest_outside = 0.05;  // of the mesh's size
+constexpr double weight_outside = 4, farthest_outside = 0.05;  // fraction of the mesh's size
 
 double outside(const Target& target, const Vec3& point) {
   double least = target.size * target.size, side = 0;

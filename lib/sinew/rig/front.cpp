@@ -81,7 +81,7 @@ std::optional<Vec3> front_of(std::span<const std::string> names, const Points& h
   for (const auto& [what, sides] : pairs)
     if (sides[0].count > 0 && sides[1].count > 0)
       to_left += level(sides[0].heads / sides[0].count - sides[1].heads / sides[1].count);
-  constexpr double clear = 0.02;  // of the figure
+  constexpr double clear = 0.02;  // fraction of the figure's size
   Vec3 front = to_left.cross(Vec3::UnitZ());
   if (front.norm() < clear * size) front = feet;
   if (front.norm() < clear * size) return std::nullopt;

@@ -11,13 +11,13 @@
 namespace sinew {
 namespace {
 
-constexpr double straight = 0.35;       // of the distance from the surface: curves within are lines
-constexpr double max_of_stem = 0.4;     // of a limb lies in the ball where it begins
-constexpr double root_fraction = 0.15;  // of two limbs, on either side of where they begin
+constexpr double straight = 0.35;       // distances from the surface: curves within are lines
+constexpr double max_of_stem = 0.4;     // largest part of a limb in the ball where it begins
+constexpr double root_fraction = 0.15;  // fraction of two limbs, on either side of where they begin
 constexpr double min_bone = 3;          // length of bones in distances from the surface
 constexpr int max_alike = 5;            // bones of a straight limb
-constexpr double trunk_fraction = 0.4;  // of the angle, where a limb holds others
-constexpr double stout_fraction = 0.67;  // of the angle, where a limb is about as thick as long
+constexpr double trunk_fraction = 0.4;  // fraction of the angle, where a limb holds others
+constexpr double stout_fraction = 0.67;  // fraction of the angle, where a limb is as thick as long
 constexpr double long_trunk = 3;         // in distances from the surface: such limbs bend
 
 /// A line with the length up to each of its points.

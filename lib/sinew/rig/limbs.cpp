@@ -15,10 +15,10 @@
 namespace sinew {
 namespace {
 
-constexpr double min_reach = 1.7;   // of a limb, in widths of the place where it begins
-constexpr double flat_end = 0.15;   // of the width: points so near the farthest are the tip
+constexpr double min_reach = 1.7;  // length of a limb in widths of the place where it begins
+constexpr double flat_end = 0.15;  // fraction of the width: points so near the farthest are the tip
 constexpr double min_trunk = 0.75;  // length of a limb between two forks, in their widths
-constexpr double min_both = 2.5;    // of a body with limbs, in its widths
+constexpr double min_both = 2.5;    // length of a body with limbs, in its widths
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// The graph while it becomes a tree.
@@ -28,12 +28,12 @@ struct CurveTree {
   double distance(int a, int b) const { return (graph.points[a] - graph.points[b]).norm(); }
 
   const CurveGraph& graph;
-  std::vector<std::vector<int>> joined;    ///< by links
+  std::vector<std::vector<int>> joined;    ///< neighbors by links
   std::vector<std::vector<int>> skin;      ///< points of the surface, of each point
   std::vector<int> parent;                 ///< -1: root, or not in the tree
   std::vector<std::vector<int>> children;  ///< in the tree
   std::vector<bool> on_ring, cut;          ///< cut: where a ring ends
-  std::vector<double> width;               ///< of the body around the points, m
+  std::vector<double> width;               ///< width of the body around the points, m
 };
 
 /// Root mean square distance of the skin around a point, m.

@@ -23,7 +23,7 @@ struct Limb {
 
   int body = 0;               ///< the component of the graph
   int parent = -1;            ///< an earlier limb
-  Points line;                ///< from where it begins, m
+  Points line;                ///< points from where it begins, m
   std::vector<double> inner;  ///< distance of these points from the surface, m
   End end = End::tip;
   bool on_ring = false;  ///< both its ends hold the rest of the body
@@ -46,8 +46,8 @@ std::vector<Limb> axis_limbs(const Points& skin);
 // Bones along the limbs, and a motion that bends each a little and back.
 
 struct LimbRigOptions {
-  double radius = 0;   ///< of the particles, m: bones end as far below the tips
-  double angle = 30;   ///< by which a limb bends, in all, degrees
+  double radius = 0;   ///< radius of the particles, m: bones end as far below the tips
+  double angle = 30;   ///< angle by which a limb bends, in all, degrees
   double bend = 0.5;   ///< time to bend, s
   double hold = 0.25;  ///< time it stays bent, s; then it bends back
 };

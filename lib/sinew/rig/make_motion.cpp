@@ -27,7 +27,7 @@ Quat from_euler(const Vec3& angles, const std::string& order) {
   return rotation;
 }
 
-constexpr double largest_rounding = 1e-3;  // of a quaternion's length: more is not rounding
+constexpr double largest_rounding = 1e-3;  // error of a quaternion's length: more is not rounding
 
 Quat from_quaternion(const std::array<double, 4>& given, const std::string& place) {
   const Quat rotation(given[0], given[1], given[2], given[3]);

@@ -31,11 +31,11 @@ namespace sinew {
 /// The motion of one bone at one moment, relative to the parent, with its rate of change.
 struct LocalMotion {
   Quat rotation = Quat::Identity();
-  Vec3 angular_velocity = Vec3::Zero();  ///< of rotation, in the parent's directions, rad/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< rate of rotation, in the parent's directions, rad/s
   double twist = 0, twist_rate = 0;      ///< rad, rad/s
   Vec3 translation = Vec3::Zero();       ///< m, in the parent's directions
-  Vec3 velocity = Vec3::Zero();          ///< of translation, m/s
-  double stretch = 1, stretch_rate = 0;  ///< of the bone's length, 1/s
+  Vec3 velocity = Vec3::Zero();          ///< rate of translation, m/s
+  double stretch = 1, stretch_rate = 0;  ///< factor of the bone's length; its rate, 1/s
 };
 
 struct TrackCursor;
@@ -105,7 +105,7 @@ TrackDefinition track_of(std::string bone, std::span<const double> times,
 
 /// The moment of a clip at a time of the scene.
 struct ClipMoment {
-  double time = 0;     ///< of the clip, s
+  double time = 0;     ///< time of the clip, s
   double speed = 1;    ///< s of the clip per s; 0 where it holds, below 0 where it plays backwards
   bool ramps = false;  ///< in the preroll:
   double reached = 1, rate = 0;  ///< reached fraction of the pose, and its rate, 1/s
@@ -136,7 +136,8 @@ struct Clip {
 struct Rig {
   Skeleton skeleton;
   std::vector<Clip> clips;
-  std::vector<std::string> warnings = {};  ///< of the file, with its place: what it gets wrong
+  /// Warnings of the file, with its place: what it gets wrong.
+  std::vector<std::string> warnings = {};
 };
 
 /// Throws bad input (without the path) for an unknown name, with the nearest known one.
@@ -159,7 +160,7 @@ class PoseCursor {
   struct Link {
     int parent = no_bone, track = -1;  ///< -1: not moved by a track
     bool limited = false;
-    Vec3 offset = Vec3::Zero();    ///< of its head from the parent's, at rest
+    Vec3 offset = Vec3::Zero();    ///< vector to its head from the parent's, at rest
     Vec3 along = Vec3::Zero();     ///< the part of it along the parent, which stretches
     Vec3 axis = Vec3::Zero();      ///< its own, at rest
     Mat3 rest = Mat3::Identity();  ///< its axes at rest
@@ -171,8 +172,8 @@ class PoseCursor {
 
   const Skeleton* skeleton_;
   const Motion* motion_;
-  std::vector<Link> links_;           ///< of each bone
-  std::vector<TrackCursor> cursors_;  ///< of each track
+  std::vector<Link> links_;           ///< one per bone
+  std::vector<TrackCursor> cursors_;  ///< one per track
   Pose pose_;
 };
 

@@ -30,8 +30,8 @@ double first_key(const Motion& motion);
 
 struct LimitPassed {
   int bone = no_bone;
-  double time = 0;  ///< of the first excess, s of the scene
-  Excess most;      ///< of swing and of twist separately
+  double time = 0;  ///< time of the first excess, s of the scene
+  Excess most;      ///< excess of swing and of twist separately
 };
 
 /// The bones that the clip would move beyond their limits, sampled at its keys and between them.

@@ -14,7 +14,7 @@ namespace sinew {
 struct BonePose {
   RigidFrame frame;                      ///< head and axes now; at rest it is Bone::rest
   Mat3 turn = Mat3::Identity();          ///< rotation since rest, frame.rotation rest.rotation^T
-  Vec3 velocity = Vec3::Zero();          ///< of the head, m/s
+  Vec3 velocity = Vec3::Zero();          ///< velocity of the head, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   double twist = 0;         ///< rotation about the bone itself as the motion gives it, rad
   double stretch = 1;       ///< factor of the length: s along the axis becomes stretch s

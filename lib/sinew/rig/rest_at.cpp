@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-constexpr double leaves = 0.05;  // of the skeleton's size
+constexpr double leaves = 0.05;  // fraction of the skeleton's size
 constexpr double stub = 0.02;    // likewise
 
 const Track* track_of(const Motion& motion, int bone) {

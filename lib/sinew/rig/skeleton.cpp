@@ -196,10 +196,10 @@ Mat3 frame_along(const Vec3& axis) {
 
 namespace {
 
-constexpr double min_length = 1e-6;  // of the skeleton's size; shorter directions are rounding
+constexpr double min_length = 1e-6;  // fraction of the skeleton's size: shorter ones are rounding
 
 struct Children {
-  Vec3 sum = Vec3::Zero(), farthest = Vec3::Zero();  // of their offsets from the joint
+  Vec3 sum = Vec3::Zero(), farthest = Vec3::Zero();  // offsets from the joint
   int count = 0;
 };
 

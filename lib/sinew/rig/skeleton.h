@@ -108,7 +108,8 @@ struct BoneWeight {
 /// Weights of n points.
 struct BoneWeights {
   std::vector<std::uint32_t> first;  ///< n + 1 long; point i has [first[i], first[i + 1])
-  std::vector<BoneWeight> weights;   ///< of each point the heaviest first, each bone once, sum 1
+  /// Weights of each point, the heaviest first, each bone once, sum 1.
+  std::vector<BoneWeight> weights;
 
   std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
   std::span<const BoneWeight> of(std::size_t i) const {

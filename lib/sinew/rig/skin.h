@@ -28,8 +28,8 @@ struct Skin {
   /// for vertices, their neighbors, and the neighbors of those, from which their deformation
   /// follows.
   std::vector<std::uint32_t> near;
-  std::vector<std::uint32_t> weighted;  ///< those with weights: ascending places in `near`
-  RestShape shape;  ///< of `near` alone; complete for those with weights and their neighbors
+  std::vector<std::uint32_t> weighted;  ///< particles with weights: ascending places in `near`
+  RestShape shape;  ///< shape of `near`; complete for those with weights and their neighbors
 };
 
 /// Binds vertices (n x 3, m) to the particles at `points` (m, at rest, of radius `radius`, m)

@@ -25,7 +25,7 @@ namespace sinew {
 struct SkinnedRig {
   Rig rig;
   PolygonSoup mesh;     ///< the meshes that it moves, in the bind pose; empty for a rig alone
-  BoneWeights weights;  ///< of mesh.points
+  BoneWeights weights;  ///< weights of mesh.points
 };
 
 /// The weights with which a binding skins each particle.

@@ -32,7 +32,7 @@ class Hierarchy {
  private:
   struct Open {
     int joint;
-    std::size_t position;  // of its keyword
+    std::size_t position;  // position of its keyword
     bool has_offset = false, has_channels = false, has_children = false;
   };
 

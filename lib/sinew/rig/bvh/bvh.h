@@ -27,9 +27,9 @@ enum class BvhChannel { x_position, y_position, z_position, x_rotation, y_rotati
 
 /// Lengths in units of the file, in its directions.
 struct BvhJoint {
-  std::string name;                  ///< as in the file: may be empty, or that of another joint
+  std::string name;                  ///< name in the file: may be empty, or that of another joint
   int parent = no_bone;              ///< index of an earlier joint; no_bone for a root
-  Vec3 offset = Vec3::Zero();        ///< from the parent's joint, at rest
+  Vec3 offset = Vec3::Zero();        ///< vector from the parent's joint, at rest
   std::vector<BvhChannel> channels;  ///< 0 to 6 different ones, in the file's order
   std::optional<Vec3> end;           ///< End Site: from this joint to the bone's tail, at rest
 
@@ -44,7 +44,7 @@ struct Bvh {
   std::vector<double> values;              ///< frames x channels(), degrees and units of the file
   std::vector<std::string> warnings = {};  ///< what the file gets wrong and is read all the same
 
-  std::size_t channels() const;  ///< of all joints
+  std::size_t channels() const;  ///< number of channels of all joints
   bool operator==(const Bvh&) const = default;
 };
 
@@ -62,7 +62,7 @@ enum class BvhPositions {
 };
 
 struct BvhOptions {
-  std::string name = "clip";  ///< of the clip
+  std::string name = "clip";  ///< name of the clip
   double scale = 1;           ///< meters per unit of the file
   std::string up = "y";       ///< the file's direction that becomes the scene's z: "x", "-x", ...
   std::string forward = "z";  ///< the file's direction that becomes the scene's x

@@ -221,7 +221,7 @@ class ClipMaker {
   const Reading& reading_;
   Frames frames_;
   double duration_ = 0;  // s
-  int count_ = 0;        // of keys
+  int count_ = 0;        // number of keys
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 // A head within this fraction of the parent's length from its tail is a joint at the tail.
 constexpr double near_tail = 0.25;
 constexpr std::size_t max_sharing = 100;  // children of one joint: each is compared with each
-constexpr double no_width = 1e-9;         // of a zone: below it, only the distances decide
+constexpr double no_width = 1e-9;         // width of a zone below which only the distances decide
 
 /// Limit of a zone's length, m: both bones have joints at their other end.
 double longest_between(const JointZones& zones, const Skeleton& skeleton,

@@ -29,9 +29,9 @@ struct JointZone {
 };
 
 struct JointZones {
-  std::vector<int> parent;                 ///< of each bone
-  std::vector<JointZone> above;            ///< of each bone, to its parent
-  std::vector<std::vector<int>> children;  ///< of each bone, those with a zone
+  std::vector<int> parent;                 ///< parent of each bone
+  std::vector<JointZone> above;            ///< zone between each bone and its parent
+  std::vector<std::vector<int>> children;  ///< children of each bone that have a zone
   std::vector<double> before, beyond;      ///< how far feet may be beyond head and tail, m
 
   double longest() const;

@@ -8,10 +8,10 @@ namespace sinew {
 namespace {
 
 constexpr double alike = 0.1;          // difference of the lengths of two limbs, of the longer
-constexpr double shortest_pair = 0.2;  // of the skeleton's size: limbs, not fingers
-constexpr double long_link = 0.6;      // of the limb's longest: an upper arm, no collar bone
-constexpr double above_head = 0.06;    // of the height, above a head joint without an end
-constexpr double below_ankle = 0.04;   // of the height, below the ankle
+constexpr double shortest_pair = 0.2;  // fraction of the skeleton's size: limbs, not fingers
+constexpr double long_link = 0.6;    // fraction of the limb's longest: an upper arm, no collar bone
+constexpr double above_head = 0.06;  // fraction of the height, above a head joint without an end
+constexpr double below_ankle = 0.04;  // fraction of the height, below the ankle
 
 /// The skeleton as a tree of lengths.
 struct Tree {

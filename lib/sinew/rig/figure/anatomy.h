@@ -20,7 +20,7 @@ struct LimbPair {
   std::array<int, 2> first = {no_bone, no_bone};  ///< its children, such as collar bones
   std::array<int, 2> joint = {no_bone, no_bone};  ///< the first long bones, such as upper arms
   std::array<int, 2> tip = {no_bone, no_bone};    ///< the last bones on the longest way
-  std::array<double, 2> length = {0, 0};          ///< from `first` to the tail of `tip`
+  std::array<double, 2> length = {0, 0};          ///< path from `first` to the tail of `tip`
 };
 
 struct Anatomy {

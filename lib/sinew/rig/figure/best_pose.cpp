@@ -9,9 +9,9 @@ namespace sinew {
 namespace {
 
 constexpr double times_better = 1.4;  // times as open, for the file's rest pose to be left
-constexpr double nearly_best = 0.95;  // of the best
+constexpr double nearly_best = 0.95;  // fraction of the best
 constexpr int poses_tried = 120;
-constexpr double far_turn = 120 * pi / 180;  // rad, of a joint from rest, as none of a body turns
+constexpr double far_turn = 120 * pi / 180;  // turn of a joint from rest, rad: no body turns so far
 
 Vec3 tail_of(const Skeleton& skeleton, int bone) { return skeleton.bones[bone].tail(); }
 

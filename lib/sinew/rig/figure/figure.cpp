@@ -14,12 +14,12 @@ namespace {
 constexpr std::array<double, 3> leg_radii = {0.045, 0.032, 0.022}, arm_radii = {0.03, 0.024, 0.019};
 constexpr double neck = 0.032, skull = 0.06, hips_deep = 0.058, waist_deep = 0.052,
                  chest_deep = 0.06, finger = 0.007;
-constexpr double waist = 0.85;      // of the width between hips and shoulders
-constexpr double beside_arm = 1.3;  // of the radius of the upper arm, from its middle to the trunk
-constexpr double room_kept = 0.8;   // of the distance of two lines, for both radii
+constexpr double waist = 0.85;      // fraction of the width between hips and shoulders
+constexpr double beside_arm = 1.3;  // radii of the upper arm, from its middle to the trunk
+constexpr double room_kept = 0.8;   // fraction of the distance of two lines, for both radii
 // Rigs that are no figure: of a bone's length, and of the rig's size.
 constexpr double thick_bone = 0.2, thinnest_bone = 0.012, thickest_bone = 0.05;
-constexpr double no_length = 1e-4;  // of the height: what has a length
+constexpr double no_length = 1e-4;  // fraction of the height: what has a length
 
 using Kind = FigurePart::Kind;
 
@@ -235,8 +235,8 @@ class Builder {
   const Skeleton& skeleton_;
   const Anatomy& anatomy_;
   std::vector<int> longest_;
-  std::vector<Kind> kinds_;  ///< of the bones
-  std::vector<int> hands_;   ///< of each bone the first one of its hand or foot
+  std::vector<Kind> kinds_;  ///< kinds of the bones
+  std::vector<int> hands_;   ///< first bone of the hand or foot of each bone
   std::vector<bool> done_;   ///< they have their parts, or none
   std::vector<FigurePart> parts_;
 };

@@ -47,7 +47,7 @@ class Neighborhood {
 
   const Skeleton& skeleton_;
   std::vector<double> links_;
-  std::vector<bool> begins_;  ///< of each bone: it is the first of a limb outside of the trunk
+  std::vector<bool> begins_;  ///< true where a bone is the first of a limb outside of the trunk
 };
 
 /// The distance of two lines, from end to end.

@@ -25,8 +25,9 @@ std::size_t letter_size(unsigned first) {
 
 /// Removes a UTF-8 letter from the text; false where there is none (RFC 3629), or no printable one.
 bool take_letter(std::string_view& text) {
-  constexpr std::uint32_t least[] = {0, 0x20, 0xA0, 0x800, 0x10000};  // by size; less is control,
-  const unsigned first = static_cast<unsigned char>(text[0]);         // or written too long
+  // Least letter by size; less is control, or written too long.
+  constexpr std::uint32_t least[] = {0, 0x20, 0xA0, 0x800, 0x10000};
+  const unsigned first = static_cast<unsigned char>(text[0]);
   const std::size_t size = letter_size(first);
   if (size == 0 || size > text.size()) return false;
   std::uint32_t letter = size == 1 ? first : first & (0x7Fu >> size);

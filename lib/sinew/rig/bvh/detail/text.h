@@ -37,10 +37,10 @@ class BvhText {
   std::int64_t integer(const char* what);  ///< throws bad input unless one
 
   std::string_view rest() const { return text_.substr(at_); }  ///< what has not been read yet
-  std::size_t position() const { return start_; }              ///< of the last word
+  std::size_t position() const { return start_; }              ///< position of the last word
   Place place() const { return place(start_); }
   Place place(std::size_t position) const;
-  Place place_of(std::string_view part) const {  ///< of a part of rest()
+  Place place_of(std::string_view part) const {  ///< place of a part of rest()
     return place(static_cast<std::size_t>(part.data() - text_.data()));
   }
   Error wrong(const std::string& what, const std::string& cure) const;  ///< at place()
