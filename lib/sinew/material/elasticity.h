@@ -30,7 +30,7 @@ struct CubicConstants {
 /// What a packing resists with: bonds of stiffness k to the twelve nearest neighbors, and, in units
 /// of that, bonds to the six second ones, and a stiffness K_v against changes of volume.
 struct PackingStiffness {
-  double second = 0;  ///< of a bond, over k
+  double second = 0;  ///< stiffness of a bond, over k
   double volume = 0;  ///< K_v, in k / d0
 };
 

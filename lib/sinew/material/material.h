@@ -21,13 +21,13 @@ struct MaxwellBranch {
 
 /// Strength of the bonds of a solid. Strains are changes of a bond's length over its rest length.
 struct BondStrength {
-  double stiffness = 0;        ///< of nearest neighbors, N/m
-  double second = 0;           ///< of second neighbors, N/m; 0: those have no bonds
+  double stiffness = 0;        ///< stiffness of bonds to nearest neighbors, N/m
+  double second = 0;           ///< the same to second neighbors, N/m; 0: those have no bonds
   double breaking_strain = 0;  ///< in tension; 0: never breaks
   /// Shear sqrt(D : D) around a particle beyond which its bonds creep (see solid.h); 0: never.
   double yield_shear = 0;
-  double creep_rate = 0;                                             ///< of what exceeds it, 1/s
-  std::array<MaxwellBranch, max_relaxation_branches> branches = {};  ///< those there are come first
+  double creep_rate = 0;  ///< rate of what exceeds it, 1/s
+  std::array<MaxwellBranch, max_relaxation_branches> branches = {};  ///< branches in use come first
 
   std::size_t branch_count() const;
   double long_term() const;  ///< stiffness that does not relax, over all of it
@@ -43,7 +43,7 @@ struct Material {
   double volume_stiffness = 0;  ///< K_v, Pa
   double relaxed = 1;           ///< factor on the bonds, where their branches are relaxed for good
   double order = 1;             ///< moduli of the bonds over those in FCC: less in random packings
-  double mass = 0;              ///< of a particle, kg
+  double mass = 0;              ///< mass of a particle, kg
   double damping = 0;           ///< C of eq. 2, kg/s
   DampingForm damping_form = DampingForm::paper;
   const ForceLaw* law = nullptr;  ///< in place of the model's (laws.h); a program keeps it alive
@@ -58,8 +58,8 @@ struct Material {
 
 /// How a body is filled.
 struct PackedBody {
-  double radius = 0;                ///< of a particle, m
-  double mass = 0;                  ///< of a particle, kg
+  double radius = 0;                ///< radius of a particle, m
+  double mass = 0;                  ///< mass of a particle, kg
   Mat3 lattice = Mat3::Identity();  ///< columns: the packing's axes
   Packing packing = Packing::fcc;
 };

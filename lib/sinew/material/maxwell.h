@@ -49,9 +49,9 @@ class BranchClock {
 /// The branches of some bonds.
 struct Branches {
   struct One {
-    double modulus_ratio = 0;  ///< of a bond's stiffness
+    double modulus_ratio = 0;  ///< fraction of a bond's stiffness
     double flows = 0;          ///< fraction of its spring's stretch that passes to the dashpot now
-    std::vector<double> stretch;  ///< of its dashpot, by entry of the bonds, m
+    std::vector<double> stretch;  ///< stretch of its dashpot, by entry of the bonds, m
   };
   std::vector<One> all;
 
@@ -68,8 +68,8 @@ class MaxwellBranches {
  public:
   MaxwellBranches(const BondStrength& strength, std::size_t nearest, std::size_t second);
 
-  void begin(double step);    ///< of that size, s
-  void advance(double step);  ///< that step was made
+  void begin(double step);    ///< begins a step of that size, s
+  void advance(double step);  ///< counts that step as made
 
   /// Throws bad input where the state has others.
   void restore(const SimulationState& state);
