@@ -29,17 +29,17 @@ struct Grouping;
 struct Body {
   Points rest;  ///< positions at rest by particle id, m
   Skeleton skeleton;
-  Binding binding;  ///< by particle id
+  Binding binding;  ///< bonds to bones by particle id
   Material material;
   std::vector<BoneSprings> springs;  ///< per bone
   Mat3 lattice = Mat3::Identity();   ///< columns: the packing's axes
   /// Volume of the body around each particle, by id, over that of one inside; empty: 1 each.
   std::vector<double> volume_share = {};
-  std::vector<double> stiffness = {};  ///< of the material there over `material`'s; empty: 1 each
-  std::vector<double> density = {};    ///< the same of the density
+  std::vector<double> stiffness = {};  ///< modulus of the material there over `material`; empty: 1
+  std::vector<double> density = {};    ///< density likewise
   /// Place of each particle's material in the scene's list, from 1, or 0; empty: 0 each.
   std::vector<std::int32_t> material_number = {};
-  LocalStrength local = {};       ///< of the materials of its parts
+  LocalStrength local = {};       ///< strengths of the materials of its parts
   PassThrough pass_through = {};  ///< bones whose flesh exerts no contact on each other
   BondFactors factors = {};  ///< on the stiffness of bonds, by `stiffness` and near the surface
   /// Neighbors at rest, which whoever makes a body may leave with it; none: not there, or released

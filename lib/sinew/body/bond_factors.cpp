@@ -19,7 +19,7 @@ constexpr std::size_t particles_per_search = 1024;
 constexpr std::size_t bonds_inside = 18;
 constexpr double min_factor = 0.1, max_factor = 4;
 constexpr double max_volume_share = 2;
-constexpr double min_difference = 1e-3;  // of a volume share from that inside
+constexpr double min_difference = 1e-3;  // difference of a volume share from that inside
 // Regularization of the least squares: hardly any in a lattice. Elsewhere exact solutions ask for
 // bonds that push apart, and a body with factors this near to 1 is stiffer.
 constexpr double regularization = 1e-6 / 18, irregular_regularization = 3e-2 / 18;
@@ -204,8 +204,8 @@ class SurfaceBonds {
   double r_, second_;
   const NeighborLists& near_;
   std::vector<Reason> asks_;
-  std::vector<std::uint32_t> first_;  ///< by particle, its first in asked_
-  std::vector<double> asked_;         ///< of those that ask
+  std::vector<std::uint32_t> first_;  ///< first of each particle in asked_
+  std::vector<double> asked_;         ///< values of the particles that ask
 };
 
 /// With the largest K_v, over its bonds, of any particle.

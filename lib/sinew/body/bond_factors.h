@@ -24,9 +24,9 @@ inline constexpr double stiffest_of_rough_surfaces = 7.2;
 /// Factors on the bonds of those particles alone that have others than 1.
 struct BondFactors {
   std::vector<std::uint32_t> particle;  ///< ids, ascending
-  std::vector<std::uint32_t> first;     ///< of each, its first bond
-  std::vector<std::uint32_t> neighbor;  ///< by bond, an id
-  std::vector<double> factor;           ///< by bond
+  std::vector<std::uint32_t> first;     ///< first bond of each particle
+  std::vector<std::uint32_t> neighbor;  ///< one per bond, an id
+  std::vector<double> factor;           ///< one per bond
   /// Weight of each particle's volume (volume_weights.h), by id; empty: volume_weight() of its
   /// neighbors, where volumes are kept.
   std::vector<double> volume_weight;

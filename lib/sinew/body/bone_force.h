@@ -25,7 +25,7 @@ struct BoneSprings {
   double damping = 0;  ///< kg/s
   BoneForce form = BoneForce::paper;
   TwistForm twist_form = TwistForm::servo;
-  double max_force = 0;  ///< of all three on a particle, N: see yielding(); 0: they never yield
+  double max_force = 0;  ///< limit of all three on a particle, N: see yielding(); 0: none
 
   double stiffest() const;      ///< N/m
   double yield_energy() const;  ///< J; 0: they never yield
@@ -82,7 +82,7 @@ struct BonePull {
   Vec3 axial = Vec3::Zero();    ///< N
   Vec3 damping = Vec3::Zero();  ///< N
   double energy = 0;            ///< stored in the springs, J; 0 for open_loop's twist
-  double power = 0;             ///< from the bone: force times the bone's own velocity there, W
+  double power = 0;             ///< power from the bone: force times the bone's velocity there, W
   double damping_power = 0;     ///< the damping's part of power, W
 
   Vec3 force() const { return spring + damping; }

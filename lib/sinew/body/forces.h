@@ -25,7 +25,7 @@ struct Forces {
 
   // Filled by bone_forces() only; a simulation's own forces leave them empty.
   Points bone_damping;                     ///< the damping's part of `bone`
-  std::vector<double> bone_power;          ///< from the bones, W
+  std::vector<double> bone_power;          ///< power from the bones, W
   std::vector<double> bone_damping_power;  ///< the damping's part of it, W
 
   Vec3 total(std::size_t i) const {
@@ -49,7 +49,7 @@ void bone_forces(const Particles& particles, const Body& body, const Pose& pose,
 struct Reaction {
   Vec3 force = Vec3::Zero();   ///< N
   Vec3 moment = Vec3::Zero();  ///< N m
-  double power = 0;            ///< from the bone, support or load into the body, W
+  double power = 0;            ///< power from the bone, support or load into the body, W
 
   Reaction& operator+=(const Reaction& other) {
     force += other.force;
@@ -62,8 +62,8 @@ struct Reaction {
 /// What the body puts on each bone by all that holds it there.
 struct BoneReactions {
   std::vector<Reaction> springs;
-  std::vector<Reaction> pins;       ///< that are on the bone; the inertia of pinned particles apart
-  std::vector<Reaction> obstacles;  ///< that ride on it
+  std::vector<Reaction> pins;       ///< pins on the bone; the inertia of pinned particles apart
+  std::vector<Reaction> obstacles;  ///< obstacles that ride on it
 
   std::vector<Reaction> sums() const;
 };

@@ -16,8 +16,8 @@ namespace sinew {
 enum class Layer : std::uint8_t { free, rim, shell, core };
 
 struct Grouping {
-  std::vector<std::int32_t> group;  ///< by particle id; -1: free
-  std::vector<Layer> layer;         ///< by particle id
+  std::vector<std::int32_t> group;  ///< one per particle id; -1: free
+  std::vector<Layer> layer;         ///< one per particle id
   /// Marks by particle id: 1 within a group where forces are not zero, but follow from its motion.
   std::vector<std::uint8_t> skin;
   /// Half-plane of each particle, by id, counted from the outside of its group, times 6, plus the
@@ -25,13 +25,13 @@ struct Grouping {
   /// each other and of the next half-plane's in rows.
   std::vector<std::uint8_t> face;
   std::vector<std::size_t> sizes;   ///< particles of each group
-  std::vector<std::uint8_t> cubic;  ///< by group: 1 where it moves by cubics
+  std::vector<std::uint8_t> cubic;  ///< one per group: 1 where it moves by cubics
 
   std::size_t size() const { return sizes.size(); }
   /// Returns levels by particle id: 0 free, 1 on the rim, 2 within.
   std::vector<std::int32_t> levels() const;
   std::size_t grouped() const;  ///< particles
-  std::size_t inside() const;   ///< of the shells and cores
+  std::size_t inside() const;   ///< number of particles of the shells and cores
 };
 
 inline std::size_t Grouping::grouped() const {
@@ -54,7 +54,7 @@ inline std::size_t Grouping::inside() const {
 /// The constraint that groups are on the particles of a cell of the body.
 struct ConstrainedCell {
   double squares = 0;  ///< sum of squares of accelerations that their groups do not follow, m^2/s^4
-  double count = 0;    ///< of particles
+  double count = 0;    ///< number of particles
 };
 
 }  // namespace sinew

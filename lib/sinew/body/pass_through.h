@@ -34,7 +34,7 @@ class PassThrough {
 
  private:
   std::vector<Pair> pairs_;
-  std::vector<bool> has_;     ///< by bone
+  std::vector<bool> has_;     ///< one per bone
   std::vector<bool> passes_;  ///< bone by bone
 };
 

@@ -33,7 +33,7 @@ struct Reference {
   std::int32_t which = 0;  ///< bone or support
   /// Number of rigid motions that nothing takes from a part that moves by itself, 1 to 6.
   int freedom = 0;
-  std::vector<std::uint32_t> pins = {};  ///< those of the world on that part
+  std::vector<std::uint32_t> pins = {};  ///< pins of the world on that part
 };
 
 struct Share {

@@ -45,9 +45,9 @@ namespace sinew {
 
 struct Bonds {
   NeighborLists neighbors;           ///< in both directions, in the order of the particles
-  std::vector<double> rest_length;   ///< by entry of neighbors, m; 0 once broken
-  std::vector<double> stiffness;     ///< by entry, N/m
-  std::vector<std::int32_t> broken;  ///< by particle
+  std::vector<double> rest_length;   ///< one per entry of neighbors, m; 0 once broken
+  std::vector<double> stiffness;     ///< one per entry, N/m
+  std::vector<std::int32_t> broken;  ///< number of broken bonds of each particle
 
   std::size_t size() const { return neighbors.neighbor.size() / 2; }
   bool whole(std::size_t entry) const { return rest_length[entry] > 0; }
@@ -70,7 +70,7 @@ SolidBonds make_bonds(const Points& rest, const NeighborLists& near, const Mater
 /// A bond seen from one of its particles.
 struct BondNow {
   std::uint32_t neighbor;
-  Vec3 offset;  ///< from it, m
+  Vec3 offset;  ///< vector from it, m
   double distance;
   BondSpring spring;
   std::uint32_t entry;
@@ -164,8 +164,8 @@ class Solid {
   Points rest_;
   SolidBonds bonds_;
   MaxwellBranches branches_;
-  LocalStrength local_;         ///< by particle; volume: empty where none is kept
-  std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2; only where volumes are kept
+  LocalStrength local_;         ///< one per particle; volume: empty where none is kept
+  std::vector<Mat3> inverse_;   ///< inverses of A_i, 1/m^2; only where volumes are kept
   std::vector<double> weight_;  ///< w_i
   std::vector<double> volume_;  ///< J_i - 1 at the positions of the last call of forces()
   std::vector<Mat3> thrust_;    ///< K_v V0 w_i (J_i - 1) cof(F_i) A_i^-1, N/m
