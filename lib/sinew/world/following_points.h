@@ -19,9 +19,9 @@ namespace sinew {
 
 struct FollowingPoints {
   std::vector<std::uint32_t> first;     ///< n + 1 long; point k has [first[k], first[k + 1])
-  std::vector<std::uint32_t> particle;  ///< of the body, or wherever positions come from
+  std::vector<std::uint32_t> particle;  ///< particles of the body, or wherever positions come from
   std::vector<double> weight;           ///< sums to 1 for each point; some may be negative
-  Vec3 origin = Vec3::Zero();  ///< near the body, m: far from it, weights would lose what they sum
+  Vec3 origin = Vec3::Zero();  ///< place near the body, m: far from it, weights lose what they sum
 
   std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
   /// Where they are while the particles are at `now`, m. In parallel.

@@ -11,7 +11,7 @@
 namespace sinew {
 namespace {
 
-constexpr double steepest_edge = 1.5;  // of 3 s^2 - 2 s^3, per width
+constexpr double steepest_edge = 1.5;  // steepest slope of 3 s^2 - 2 s^3, per width
 
 /// Unit vectors outside the core, proportionally shorter inside.
 Vec3 softened(const Vec3& offset, double core) { return offset / std::max(offset.norm(), core); }

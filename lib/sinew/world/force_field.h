@@ -33,8 +33,8 @@ struct Attraction {
 /// Around an axis, right-handed, at constant acceleration; inside `core`, proportional to the
 /// distance.
 struct Swirl {
-  Vec3 point = Vec3::Zero();  ///< of the axis, m
-  Vec3 axis = Vec3::UnitZ();  ///< of any length but 0
+  Vec3 point = Vec3::Zero();  ///< place on the axis, m
+  Vec3 axis = Vec3::UnitZ();  ///< direction of any length but 0
   double acceleration = 0;    ///< m/s^2
   double core = 0;            ///< m, > 0
 };
@@ -42,7 +42,7 @@ struct Swirl {
 /// A particle as fields see it.
 struct ParticleInfo {
   double mass;    ///< kg
-  double volume;  ///< of the body at rest, m^3
+  double volume;  ///< volume in the body at rest, m^3
   std::size_t id = 0;
 };
 
@@ -65,7 +65,7 @@ struct ForceField {
 /// A medium moving at constant velocity brakes the particles: f = -rate m (v - velocity).
 struct Drag {
   double rate = 0;               ///< 1/s
-  Vec3 velocity = Vec3::Zero();  ///< of the medium, m/s
+  Vec3 velocity = Vec3::Zero();  ///< velocity of the medium, m/s
 };
 
 /// The force on a particle at `position`, N, with the keys' value `scale`.

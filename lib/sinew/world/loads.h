@@ -26,13 +26,13 @@ namespace sinew {
 struct Load {
   std::string name;
   KeyedValue scale;                            ///< over time; 1 without keys
-  std::vector<std::uint32_t> particles;        ///< on which it acts, by id, ascending
-  std::vector<double> weight;                  ///< of each of them in `force`; sums to 1
+  std::vector<std::uint32_t> particles;        ///< particles on which it acts, by id, ascending
+  std::vector<double> weight;                  ///< weight of each of them in `force`; sums to 1
   Vec3 force = Vec3::Zero();                   ///< the sum, N
   double pressure = 0;                         ///< Pa, in addition
-  std::vector<std::array<int, 3>> faces = {};  ///< on which it acts, of `corners`
-  FollowingPoints corners = {};                ///< of places in `particles`
-  Vec3 pivot = Vec3::Zero();                   ///< of its moment, m
+  std::vector<std::array<int, 3>> faces = {};  ///< faces of `corners` on which it acts
+  FollowingPoints corners = {};                ///< corners from places in `particles`
+  Vec3 pivot = Vec3::Zero();                   ///< pivot of its moment, m
 };
 
 /// A force (N) distributed over particles as listed, with the same number more than once if need

@@ -32,15 +32,16 @@ namespace sinew {
 
 /// The weight of a muscle in a particle.
 struct MuscleWeight {
-  std::uint32_t particle = 0;  ///< by id
+  std::uint32_t particle = 0;  ///< id of the particle
   double weight = 1;           ///< in (0, 1]
 };
 
 struct Muscle {
   std::string name;
-  Vec3 direction = Vec3::UnitZ();  ///< of its fibers at rest (a bone's axis, say), any length but 0
-  double strength = 0;             ///< S, Pa, tension positive
-  KeyedValue activation;           ///< over time, in [0, 1]; 1 without keys
+  /// Direction of its fibers at rest (a bone's axis, say), of any length but 0.
+  Vec3 direction = Vec3::UnitZ();
+  double strength = 0;                ///< S, Pa, tension positive
+  KeyedValue activation;              ///< over time, in [0, 1]; 1 without keys
   std::vector<MuscleWeight> weights;  ///< ascending particles
 };
 
@@ -61,10 +62,10 @@ struct Muscles {
   RestShape rest;
   std::vector<Muscle> muscles;        ///< directions of length 1
   std::vector<std::uint32_t> active;  ///< particles with fibers, by id, ascending
-  std::vector<std::int32_t> row;      ///< by id: index in active, -1 for none
+  std::vector<std::int32_t> row;      ///< index in active by id, -1 for none
   std::vector<std::uint32_t> first;   ///< one longer than active; fibers of row k
-  std::vector<Fiber> fibers;          ///< those of a particle in the order of the muscles
-  std::vector<double> volume_share;   ///< by id; empty: 1 each
+  std::vector<Fiber> fibers;          ///< fibers of a particle in the order of the muscles
+  std::vector<double> volume_share;   ///< one per id; empty: 1 each
 
   double volume_share_of(std::size_t i) const { return volume_share.empty() ? 1 : volume_share[i]; }
 };

@@ -29,7 +29,7 @@ namespace sinew {
 /// Where an obstacle is and how it moves.
 struct ObstaclePose {
   RigidFrame frame;                      ///< maps the shape's coordinates to the scene's
-  Vec3 velocity = Vec3::Zero();          ///< of the frame's origin, m/s
+  Vec3 velocity = Vec3::Zero();          ///< velocity of the frame's origin, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
 
   /// Velocity of the point of this rigid obstacle that is at `p` now, m/s.

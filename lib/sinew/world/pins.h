@@ -26,7 +26,7 @@ inline constexpr std::int32_t no_support = -1;
 /// A held particle, by its place in the written order.
 struct Pinned {
   std::uint32_t particle = 0;
-  int bone = no_bone;  ///< of a pin
+  int bone = no_bone;  ///< bone of a pin
   /// The support that holds its x, y and z; none at all: a pin holds it.
   std::array<std::int32_t, 3> support = {no_support, no_support, no_support};
   /// Direction along which an oblique roller, the first of these, holds, of length 1.

@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr double growth_when_doubled = 4;  // of errors: by the square of the steps
+constexpr double growth_when_doubled = 4;  // growth of errors: by the square of the steps
 
 /// The transposed lists: of each target, the sources that name it, in their order.
 template <class Visit>
@@ -138,7 +138,7 @@ void PressedFaces::find_forces() {
   };
   on_all(face_.size(), [&](std::size_t f) {
     const Vec3 a = at(face_[f][0]), b = at(face_[f][1]), c = at(face_[f][2]);
-    area_[f] << (b - a).cross(c - a) / -6, 0;  // of three corners; twice the area
+    area_[f] << (b - a).cross(c - a) / -6, 0;  // sum over three corners; twice the area
   });
   on_all(pushed_.size(), [&](std::size_t k) {
     Four sum = Four::Zero();

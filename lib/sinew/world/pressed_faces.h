@@ -67,7 +67,7 @@ class PressedFaces {
 
  private:
   static constexpr std::size_t per_task = 512;
-  using Four = Eigen::Vector4d;  ///< as two pairs: x, y, z, 0
+  using Four = Eigen::Vector4d;  ///< two pairs: x, y, z, 0
 
   /// Sums over entries of rows: row k has the entries [first[k], first[k + 1]).
   struct Weights {
@@ -94,7 +94,7 @@ class PressedFaces {
 
   Weights of_corners_, of_particles_, of_faces_;  ///< corners from particles, and back; from faces
   std::vector<std::array<std::uint32_t, 3>> face_;
-  Vec3 origin_ = Vec3::Zero();         ///< of places, m
+  Vec3 origin_ = Vec3::Zero();         ///< origin of places, m
   std::vector<Four> at_;               ///< particles, m
   std::vector<Four> corner_, motion_;  ///< when forces were found last, m; by step since before, m
   std::vector<Four> area_, pushed_, forces_;

@@ -13,9 +13,9 @@
 namespace sinew {
 namespace {
 
-constexpr double free_motion = 1e-9;  // of the largest constraint of a rigid motion
+constexpr double free_motion = 1e-9;  // fraction of the largest constraint of a rigid motion
 constexpr double min_weight = 1e-3;   // less of a reference is none of it
-constexpr double solved = 1e-3;       // of harmonic weights
+constexpr double solved = 1e-3;       // relative error of harmonic weights
 
 using Shares = std::vector<Share>;
 using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;

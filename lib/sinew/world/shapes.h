@@ -49,7 +49,7 @@ struct BoxShape {
 /// A closed surface, given by its distance function.
 struct MeshShape {
   std::function<SignedDistance(const Vec3&)> distance;  ///< may be called from many threads
-  Box bounds;  ///< of the surface, m; the distance is not evaluated far outside it
+  Box bounds;  ///< box of the surface, m; the distance is not evaluated far outside it
 };
 
 using Shape = std::variant<PlaneShape, SphereShape, CapsuleShape, BoxShape, MeshShape>;

@@ -22,7 +22,7 @@ namespace sinew {
 /// Another particle that touches one.
 struct Touch {
   std::int32_t other = 0;  ///< its id
-  Vec3 normal;             ///< from it, of length 1
+  Vec3 normal;             ///< unit vector away from it
   double pressing = 0;     ///< N
   Vec3 velocity;           ///< relative to it, m/s
 };
@@ -58,7 +58,7 @@ class SlidingContacts {
   const Body* body_ = nullptr;
   double friction_ = 0, stiffness_ = 0, damping_ = 0;  ///< mu, N/m, kg/s
   double apart_at_rest_ = 0;                           ///< at least, of those that rub, m
-  std::vector<std::vector<Spring>> stretched_;         ///< by id
+  std::vector<std::vector<Spring>> stretched_;         ///< springs by id
 };
 
 }  // namespace sinew

@@ -22,7 +22,7 @@ struct World;
 
 struct Support {
   std::string name;
-  std::vector<std::uint32_t> particles;            ///< that it holds, by id, ascending
+  std::vector<std::uint32_t> particles;            ///< particles that it holds, by id, ascending
   std::array<bool, 3> holds = {true, true, true};  ///< their displacement along x, y, z
   /// Motion of its frame, which rests at `pivot` along the scene's axes; none: it does not move.
   ObstacleMotion motion = {};

@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t max_contacts = 3;  // of one particle at once, for the step limit
+constexpr std::size_t max_contacts = 3;  // contacts of one particle at once, for the step limit
 
 /// Gathers the forces on one particle.
 class Gatherer {

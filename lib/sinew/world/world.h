@@ -38,7 +38,7 @@ bool has_muscles(const Body& body);
 /// The world at one moment.
 struct WorldNow {
   std::vector<ObstaclePose> obstacles;
-  std::vector<double> scales;  ///< of the fields
+  std::vector<double> scales;  ///< scales of the fields
   Activations activations;
   std::vector<ObstaclePose> supports;
   std::vector<double> loads;  ///< their scales
@@ -61,7 +61,7 @@ std::vector<Reaction> reactions_through_obstacles(const World& world,
 struct ParticleWorld {
   Vec3 contact = Vec3::Zero(), drag = Vec3::Zero(), field = Vec3::Zero();
   Vec3 losing = Vec3::Zero();  ///< the part that dissipates energy: damping, friction and drag
-  double power = 0;            ///< of contact and drag at their source's own velocity
+  double power = 0;            ///< power of contact and drag at their source's own velocity
   double losing_power = 0;     ///< the dissipative part of it
   double contact_energy = 0;   ///< stored
 
