@@ -15,7 +15,7 @@
 namespace sinew {
 namespace {
 
-constexpr double min_volume_share = 0.4;  // of a site that is kept
+constexpr double min_volume_share = 0.4;  // share of a site that is kept
 constexpr std::size_t min_neighbors = 6;  // half of those inside
 
 using SiteValues = std::map<FccSite, double>;

@@ -29,9 +29,9 @@ constexpr double max_particles = 8'000;              // larger bodies are coarse
 constexpr double min_layers = 9;                     // ... as long as they keep these across
 constexpr double max_iterated = 200'000;             // particles: more take gigabytes and minutes
 constexpr std::size_t min_bonds = 3;                 // fewer do not hold a particle
-constexpr int max_rounds = 60, order = 3;            // of the polynomials to begin with
-constexpr double converged = 1e-4;                   // of eigenvalues
-constexpr double free_motion = 1e-8;  // of the largest energy of a rigid motion: nothing holds it
+constexpr int max_rounds = 60, order = 3;            // order of the polynomials to begin with
+constexpr double converged = 1e-4;                   // relative change of eigenvalues
+constexpr double free_motion = 1e-8;  // fraction of a rigid motion's largest energy: not held
 constexpr int max_bends = 8;
 constexpr double floppy = 1e-3;  // fraction of a smooth mode's w^2 below which one is no mode
 
@@ -330,7 +330,7 @@ double layers_across(const Body& body) {
   const NeighborLists& near = shared->nearest;
   if (!is_closest(body, near)) return std::numeric_limits<double>::infinity();
   const std::size_t n = body.rest.size();
-  std::vector<std::uint32_t> order;  // from the surface inward
+  std::vector<std::uint32_t> order;  // particles from the surface inward
   std::vector<int> depth(n, -1);
   order.reserve(n);
   const auto reach = [&](std::uint32_t i, int layer) {

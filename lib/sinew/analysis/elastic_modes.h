@@ -18,8 +18,8 @@ namespace sinew {
 
 struct ElasticModes {
   Eigen::VectorXd squared;         ///< w^2, ascending, 1/s^2; empty: the body has no elastic mode
-  Eigen::MatrixXd rates;           ///< of eq. 2 between them for C = 1 kg/s, 1/s
-  Eigen::MatrixXd rates_of_bones;  ///< of the damping of bones, 1/s
+  Eigen::MatrixXd rates;           ///< rates of eq. 2 between them for C = 1 kg/s, 1/s
+  Eigen::MatrixXd rates_of_bones;  ///< rates of the damping of bones, 1/s
   /// Displacements by particle id of as many of the lowest modes as were asked for, or as there
   /// are; the largest of each is of length 1.
   std::vector<Points> shapes = {};

@@ -14,11 +14,11 @@
 namespace sinew {
 namespace {
 
-using Motion6 =
-    Eigen::Matrix<double, 6, 1>;  // translation, then rotation times the component's size
+// Translation, then rotation times the component's size.
+using Motion6 = Eigen::Matrix<double, 6, 1>;
 using Gram = Eigen::Matrix<double, 6, 6>;
 
-constexpr double none = 1e-8;  // of the largest: what counts as no motion, and as not restrained
+constexpr double none = 1e-8;            // fraction of the largest: no motion, or not restrained
 constexpr double small_rotation = 1e-3;  // beside a translation
 
 /// Connected components, by particle.

@@ -15,9 +15,9 @@ namespace sinew {
 
 /// A rigid motion that nothing restrains, of a connected component of the body.
 struct FreeMotion {
-  Vec3 translation = Vec3::Zero();  ///< of the center; of length 1, or 0 for a rotation
-  Vec3 axis = Vec3::Zero();         ///< of a rotation about the center, of length 1
-  Vec3 center = Vec3::Zero();       ///< of the component, m
+  Vec3 translation = Vec3::Zero();  ///< motion of the center; of length 1, or 0 for a rotation
+  Vec3 axis = Vec3::Zero();         ///< axis of a rotation about the center, of length 1
+  Vec3 center = Vec3::Zero();       ///< center of the component, m
   std::size_t particles = 0;        ///< in the component
   bool whole = true;                ///< the component is the whole body
 

@@ -151,7 +151,7 @@ namespace {
 constexpr std::size_t neighbors_inside = 12;
 constexpr int rounds = 3, iterations = 120;  // the step is improved after each round
 constexpr double margin = 0.99;              // the iteration converges from below
-constexpr double smallness = 1e-6;           // of displacements, in radii
+constexpr double smallness = 1e-6;           // size of displacements, in radii
 constexpr std::size_t max_tried = 100'000;   // beyond, starting would take many seconds
 
 /// Motions of all particles, a column each.

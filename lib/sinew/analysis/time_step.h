@@ -36,7 +36,7 @@ double step_limit(Integrator integrator, const Material& material,
                   double stiffest = stiffest_of_rough_surfaces);
 
 struct StepChoice {
-  double limit = 0;   ///< of the integrator chosen, s
+  double limit = 0;   ///< limit of the integrator chosen, s
   double step = 0;    ///< s
   int per_frame = 0;  ///< steps in a frame interval, exactly
   double factor() const { return step / limit; }

@@ -14,7 +14,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr double small = 1e-6;  // of displacements, in radii
+constexpr double small = 1e-6;  // size of displacements, in radii
 
 /// What ties a body's particles near rest.
 SolidBonds ties_of(const Body& body) {
