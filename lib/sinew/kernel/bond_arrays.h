@@ -27,9 +27,9 @@ struct BondKind {
 template <class Real>
 struct Branch {
   Real* stretch;       ///< entries x block: of its dashpot
-  Real modulus_ratio;  ///< of the bond's stiffness
+  Real modulus_ratio;  ///< fraction of the bond's stiffness
   Real flows;          ///< fraction of its spring's stretch that passes to the dashpot now; often 0
-  Real weight;         ///< of its stretch in the length at which the bond pulls nothing
+  Real weight;         ///< weight of its stretch in the length at which the bond pulls nothing
 };
 inline constexpr int max_branches = 4;
 
@@ -46,15 +46,15 @@ struct FlowLook {
 template <class Real>
 struct Bonds {
   const std::uint32_t* first;   ///< entries of block k: [first[k], first[k + 1])
-  const std::uint32_t* second;  ///< from there on, bonds between second neighbors
+  const std::uint32_t* second;  ///< start of the bonds between second neighbors
   BondEntry* entries;
   const BondKind<Real>* kinds;
   const Real* own;       ///< rows x block: stiffness by lane, where it differs
   Real* creep;           ///< entries x block, added to the length; null: none creeps
-  std::int32_t* broken;  ///< by particle
-  Real* flow[6];         ///< by particle: P of body/solid.h, x x, y y, z z, y z, z x, x y
-  Real* flows;           ///< by particle: positive where P is not 0
-  FlowLook<Real>* look;  ///< by piece
+  std::int32_t* broken;  ///< broken bonds of each particle
+  Real* flow[6];         ///< one per particle: P of body/solid.h, x x, y y, z z, y z, z x, x y
+  Real* flows;           ///< one per particle: positive where P is not 0
+  FlowLook<Real>* look;  ///< one per piece
   Real yield;            ///< squared shear beyond which bonds creep; 0: never
   /// Values by particle, where they differ: `yield`; 1 + the strain at which bonds break. Or null.
   const Real* yield_of;
@@ -64,7 +64,7 @@ struct Bonds {
   Branch<Real> branch[max_branches];
   int branches;
   bool branches_flow;  ///< one of them does now
-  Real slope;          ///< of a bond's force, over its stiffness, where there are branches
+  Real slope;          ///< slope of a bond's force, over its stiffness, where there are branches
 };
 
 }  // namespace sinew::kernel

@@ -38,10 +38,10 @@ struct Bond {
   const BondKind<typename L::Real>* kind;
   std::ptrdiff_t difference;
   typename L::M mask;
-  std::size_t place;     ///< of its values by entry and lane
+  std::size_t place;     ///< place of its values by entry and lane
   typename L::V length;  ///< with what it has crept
   typename L::V stiffness;
-  typename L::V free_length, slope;  ///< of its force, slope (free_length - d)
+  typename L::V free_length, slope;  ///< terms of its force, slope (free_length - d)
 };
 
 /// With branches, which relax while the force acts: of their state before and after the mean.

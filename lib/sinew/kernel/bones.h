@@ -11,7 +11,7 @@ namespace sinew::kernel {
 template <class L>
 struct BoneSums {
   Triple<L> spring = none<L>(), damping = none<L>();
-  typename L::V power = L::all(0);          ///< from the bones
+  typename L::V power = L::all(0);          ///< power from the bones
   typename L::V damping_power = L::all(0);  ///< the damping's part of it
   typename L::V energy = L::all(0);         ///< in the springs; only where requested
   /// Velocity of the leading bone at this place; the particle's own without one.

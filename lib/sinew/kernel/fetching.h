@@ -18,7 +18,7 @@ struct Ahead {
 
 template <class Real>
 SINEW_INLINE Ahead ahead_of(const Step<Real>& step, std::size_t block) {
-  constexpr std::size_t blocks = 4;  // by measurement: 2 to 8 serve alike
+  constexpr std::size_t blocks = 4;  // measured: 2 to 8 serve alike
   Ahead ahead;
   ahead.block = block + blocks < step.blocks ? block + blocks : step.blocks - 1;
   ahead.own = static_cast<std::ptrdiff_t>(ahead.block) * Traits<Real>::block;

@@ -15,9 +15,9 @@ enum Motions { affine, cubic, motions };
 /// Particles of a group, and a polynomial of its motion: the same terms, three values.
 struct FieldInput {
   std::size_t begin, end;
-  const double* at[3];  ///< of all particles
+  const double* at[3];  ///< places of all particles
   const double* value;  ///< coefficients, axis by axis cubic_terms long
-  std::size_t size;     ///< of all particles, at least a vector's
+  std::size_t size;     ///< number of all particles, at least a vector's
 };
 
 /// Particles of a group that follow each other in memory.
@@ -34,7 +34,7 @@ struct PulledBlocks {
   const std::uint32_t* block;
   const double* weight;
   std::size_t count;
-  const Real* at[3];  ///< of all particles
+  const Real* at[3];  ///< places of all particles
 };
 
 /// Sums of some vectors times each term of the place, for each axis.
@@ -46,13 +46,13 @@ struct TermSums {
 struct PullSums {
   TermSums force;
   TermSums damping;    ///< the part of it that is damping
-  double power, lost;  ///< from the bones; of that, by damping
+  double power, lost;  ///< power from the bones; part of it that damping loses
 };
 
 /// Bonds of one direction in a group that moves by cubics: particles at its two ends are apart by a
 /// square polynomial of the place of the near one.
 struct GroupBonds {
-  const double* at[3];    ///< of the near ends
+  const double* at[3];    ///< places of the near ends
   const double* weight;   ///< on the stiffness
   const double* contact;  ///< on what they exert where they touch
   std::size_t count;      ///< a whole number of vectors of 64 bytes

@@ -55,7 +55,7 @@ struct State {
 struct Lists {
   const std::uint32_t* first;
   const std::int32_t* value;
-  const std::uint16_t* lanes;  ///< of each difference, those that it is for; null: all
+  const std::uint16_t* lanes;  ///< lanes that each difference is for; null: all
 };
 
 /// What acts between pairs: eq. 1 between all; eq. 1, without its attraction between particles that
@@ -96,7 +96,7 @@ struct FrameNow {
   Coord<Real> center[3];
   Real rest_of_center[3];  ///< remainder of the fixed-point center
   Real axes[9];
-  Real velocity[3], spin[3];  ///< of the center; angular
+  Real velocity[3], spin[3];  ///< velocity of the center; angular velocity
 };
 
 /// How a bone pulls: with springs about its axis, the twist as a servo or in open loop; or each
@@ -110,8 +110,8 @@ struct BoneNow {
   Real radial, twist, axial, damping;
   Real yield;  ///< twice the energy beyond which they yield; 0: they never do
   BonePulls pulls;
-  Real turning;       ///< of open loop: twist times the angle
-  Real center;        ///< of the frame, along the bone at rest
+  Real turning;       ///< twist times the angle, in open loop
+  Real center;        ///< center of the frame, along the bone at rest
   Real stretch;       ///< factor of lengths along the bone
   Real stretch_rate;  ///< per time
 };
@@ -169,7 +169,7 @@ struct RigidDamping {
 template <class Real>
 struct Subpieces {
   const std::uint32_t* first;     ///< particle of each; one longer, ends with the last particle
-  const std::uint32_t* of_block;  ///< that of its first particle
+  const std::uint32_t* of_block;  ///< subpiece of its first particle
   std::uint32_t count;
   const RigidMotion<Real>* motions;
   Real* fastest;  ///< becomes the largest squared speed relative to the motion
@@ -184,8 +184,8 @@ struct Relaxing {
 
 /// Sums of a piece.
 struct Totals {
-  double power;         ///< of the bones
-  double driven_power;  ///< of muscles and loads
+  double power;         ///< power of the bones
+  double driven_power;  ///< power of muscles and loads
   double lost;          ///< what the step dissipates per time
   double pair_energy;   ///< only from probe
   double bone_energy;   ///< only from probe
@@ -209,7 +209,7 @@ struct Probed {
 /// Accelerations by loads.
 template <class Real>
 struct Loads {
-  const std::uint8_t* on;  ///< by block: whether it has some; null: there are none
+  const std::uint8_t* on;  ///< one per block: whether it has some; null: there are none
   const Real* acceleration[3];
 };
 
@@ -219,7 +219,7 @@ struct Loads {
 /// Rows are those of a piece: block after block, `block` of each.
 template <class Real>
 struct Surroundings {
-  const std::uint8_t* touched;  ///< by block of the body; null: there is nothing
+  const std::uint8_t* touched;  ///< one per block of the body; null: there is nothing
   bool finding;                 ///< the first of the two calls
   Real* acceleration[3];        ///< rows: found, then what it has become
   const Real* held;             ///< rows: 1 for what pins hold, else 0
@@ -232,10 +232,10 @@ enum Role : std::int32_t { working = -1, idle = -2 };
 
 template <class Real>
 struct Grouped {
-  const std::int32_t*
-      role;  ///< by block: working, idle (a step leaves it out) or a row; null: working
-  const std::uint8_t* inactive;  ///< by block: nobody needs its deformation or its counts
-  const std::uint8_t* whole;     ///< by block: all of it is grouped, whose speeds are known
+  /// One per block: working, idle (a step leaves it out) or a row; null: working.
+  const std::int32_t* role;
+  const std::uint8_t* inactive;  ///< one per block: nobody needs its deformation or its counts
+  const std::uint8_t* whole;     ///< one per block: all of it is grouped, whose speeds are known
   Real* acceleration[3];         ///< rows x block
 };
 
@@ -244,7 +244,7 @@ template <class Real>
 struct PutInput {
   State<Real> state;
   std::size_t begin, end;
-  const double* at[3];  ///< of all particles: places in their groups' frames
+  const double* at[3];  ///< places of all particles in their groups' frames
   const double* x;      ///< coefficients, axis by axis cubic_terms long, in units of the kernel
   const double* v;
 };
@@ -255,22 +255,22 @@ struct Step {
   std::size_t blocks;
   const std::int32_t* id;
   const Real* live;    ///< lanes of the last block: 1 for a particle, 0 for padding
-  const Lists* lists;  ///< by piece
+  const Lists* lists;  ///< one per piece
   Subpieces<Real> subpieces;
   Bindings<Real> bindings;
   RigidDamping<Real> rigid;
   Law<Real> law;
-  std::uint8_t* careful;  ///< by vector: its pairs needed care in the last step; double precision
+  std::uint8_t* careful;  ///< one per vector: pairs needed care in the last step; double precision
   Real* inverse_count;    ///< 1 / neighbors, or 0; of pairwise damping
-  bool central;           ///< that acts along the pair alone
-  Bonds<Real> bonds;      ///< of laws that know neighbors at rest, and of fibers
-  Real* inverse[6];       ///< of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
+  bool central;           ///< damping acts along the pair alone
+  Bonds<Real> bonds;      ///< bonds of laws that know neighbors at rest, and of fibers
+  Real* inverse[6];       ///< inverse of the sum of X X^T at rest: x x, y y, z z, y z, z x, x y
   Volumes<Real> volumes;
   Fibers<Real> fibers;
   Loads<Real> loads;
   Surroundings<Real> surroundings;
   Grouped<Real> grouped;
-  const Real* mass;  ///< by particle, of what forces are per; null: 1 each
+  const Real* mass;  ///< mass of each particle that forces are per; null: 1 each
   Real gravity[3];   ///< per time squared
   Real keep;         ///< v = keep v + kick a; 1 but where a step relaxes
   Real kick;
@@ -279,15 +279,15 @@ struct Step {
   bool drift_first;  ///< x moves with the old velocity (explicit Euler)
   bool relaxes;      ///< fills Totals::relaxing
   Real most;         ///< largest valid squared speed relative to the leading bone
-  Totals* totals;    ///< by piece
+  Totals* totals;    ///< one per piece
   Probed<Real> probed;
 };
 
 /// Sums over particles that determine their motion and extent, with coordinates x relative to one
 /// of them.
 struct Survey {
-  double low[3], high[3];              ///< of x
-  double low_along[3], high_along[3];  ///< of x along each of some axes
+  double low[3], high[3];              ///< bounds of x
+  double low_along[3], high_along[3];  ///< bounds of x along each of some axes
   double x[3], v[3];
   double xx[6];  ///< x x, y y, z z, y z, z x, x y
   double xv[3];  ///< x cross v
@@ -316,9 +316,9 @@ struct ListInput {
   State<Real> state;
   const std::uint32_t* pieces;
   std::size_t count;
-  std::size_t own;            ///< which of them it is
-  const BlockBounds* bounds;  ///< by piece of the body
-  const BlockBounds* around;  ///< as if each of those near were a block
+  std::size_t own;            ///< number of its own piece among these
+  const BlockBounds* bounds;  ///< one per piece of the body
+  const BlockBounds* around;  ///< bounds as if each of those near were a block
   float range;
   Coord<Real> center[3];  ///< a place within the piece
   /// Room for the places of particles from the center, by block of the pieces near it, as four
@@ -347,7 +347,7 @@ struct MomentaInput {
   std::size_t begin, end;
   double length, speed;  ///< units of the state
   double shift[3];       ///< to be added to positions, in the unit of the sums
-  const double* mass;    ///< by particle; null: 1
+  const double* mass;    ///< one per particle; null: 1
 };
 /// Mass, first and second moments (xx yy zz yz zx xy), momentum and angular momentum.
 inline constexpr int momenta = 16;
@@ -392,7 +392,7 @@ struct OwnLaw {
 template <class Real>
 struct Functions {
   /// Finds the thrusts of volumes and fibers, which must be known everywhere before a step.
-  Work<Real> flow;  ///< of bonds that creep
+  Work<Real> flow;  ///< work of bonds that creep
   Work<Real> strain;
   LawFunctions<Real> law[pair_laws];
   /// Bytes that Surroundings::forces takes, at 64 byte boundaries.

@@ -288,7 +288,7 @@ class BlockList {
 
   std::size_t block_;
   std::int32_t *begin_, *end_;
-  std::uint64_t open_ = 0;  ///< those that the next block may have too
+  std::uint64_t open_ = 0;  ///< bits that the next block may have too
   std::size_t last_ = ~std::size_t{1};
 };
 

@@ -9,8 +9,8 @@ namespace sinew::kernel {
 template <class L>
 struct PairSums {
   Triple<L> force = none<L>();  ///< eq. 1
-  Triple<L> velocities =
-      none<L>();  ///< of the neighbors; pairwise: relative, times both inverse counts
+  /// Velocities of the neighbors; pairwise: relative, times both inverse counts.
+  Triple<L> velocities = none<L>();
   typename L::V count = L::all(0);
   typename L::V energy = L::all(0);  ///< half of each pair's; only where requested
 };

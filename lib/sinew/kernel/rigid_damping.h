@@ -9,7 +9,7 @@ namespace sinew::kernel {
 template <class L>
 struct Braking {
   Triple<L> force = none<L>();
-  typename L::V power = L::all(0);     ///< from all that it is relative to
+  typename L::V power = L::all(0);     ///< power from all that it is relative to
   typename L::V of_bones = L::all(0);  ///< the bones' part of it
 };
 

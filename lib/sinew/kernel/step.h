@@ -24,7 +24,7 @@ struct Sums {
   Real driven_power[block] = {}, fastest[block] = {}, speed2[block] = {};
   Real aa[block] = {}, av[block] = {}, vv[block] = {}, unbalanced[block] = {}, pulled[block] = {};
   bool sound = true, broke = false;
-  std::uint32_t subpiece = 0;  ///< of `fastest`
+  std::uint32_t subpiece = 0;  ///< subpiece of `fastest`
 };
 
 template <class L>

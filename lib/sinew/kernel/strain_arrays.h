@@ -31,21 +31,21 @@ struct FiberRows {
 template <class Real>
 struct FiberLayer {
   const std::uint32_t* first;  ///< slots of block k: [first[k], first[k + 1])
-  const std::int32_t* muscle;  ///< by slot
+  const std::int32_t* muscle;  ///< one per slot
   const Real* strength;        ///< slots x block: times weight and volume; 0 for other muscles
-  const std::uint8_t* near;    ///< by block: whether a particle or a neighbor at rest has one
-  const FiberRows* rows;       ///< by entry of the bonds
+  const std::uint8_t* near;    ///< one per block: whether a particle or a neighbor at rest has one
+  const FiberRows* rows;       ///< one per entry of the bonds
   const Real* coefficients;    ///< rows x block; 0 where nothing is bonded
-  const Real* own;             ///< by particle: the sum of its own coefficients
-  Real* pull[3];               ///< by particle: a S w V0 F t / |F t|^2
+  const Real* own;             ///< one per particle: the sum of its own coefficients
+  Real* pull[3];               ///< one per particle: a S w V0 F t / |F t|^2
 };
 
 /// Fibers of muscles.
 template <class Real>
 struct Fibers {
   const FiberLayer<Real>* layers;
-  int count;          ///< of the layers; 0: there are no fibers
-  const Real* level;  ///< by muscle: its activation
+  int count;          ///< number of layers; 0: there are no fibers
+  const Real* level;  ///< one per muscle: its activation
 };
 
 }  // namespace sinew::kernel
