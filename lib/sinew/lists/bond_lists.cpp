@@ -71,7 +71,7 @@ struct RestNeighbors {
   bool kinds;            ///< whether they differ
   double r;              ///< m
   double nearest_range;  ///< m
-  double range;          ///< of those that count, m
+  double range;          ///< range of neighbors that count, m
   std::span<const std::int32_t> id;
   const BondFactors& factors;
   CellGrid grid;
@@ -369,7 +369,7 @@ void BondLists<Real>::read(std::span<const std::int32_t> id, const Units& units,
 template <class Real>
 void BondLists<Real>::save(SimulationState& state) const {
   if (!change()) return;
-  std::vector<std::uint32_t> lanes;  // by entry
+  std::vector<std::uint32_t> lanes;  // one per entry
   std::vector<double> crept;         // each whole bond, in lengths of the kernel
   for (const kernel::BondEntry& entry : entries) lanes.push_back(entry.lanes);
   const auto add = [&](std::size_t at) { crept.push_back(static_cast<double>(creep[at])); };

@@ -24,20 +24,21 @@ namespace sinew {
 template <class Real>
 struct BondLists {
   std::vector<std::uint32_t> first;        ///< blocks + 1 long; empty: the material knows no bonds
-  std::vector<std::uint32_t> second;       ///< by block: where those of second neighbors begin
-  std::vector<kernel::BondEntry> entries;  ///< of a block, each: ascending differences, then kinds
-  std::vector<Vec3> rest;                  ///< by kind, m
+  std::vector<std::uint32_t> second;       ///< one per block: where those of second neighbors begin
+  std::vector<kernel::BondEntry> entries;  ///< entries by block: ascending differences, then kinds
+  std::vector<Vec3> rest;                  ///< one per kind, m
   std::vector<double> kind_factor;         ///< on its stiffness; 0: of several bonds, none
   std::vector<kernel::BondKind<Real>> kinds;
   Lines<Real> own;    ///< rows x block: stiffness by lane, with the body's factors
   Lines<Real> creep;  ///< entries x block; empty: none creeps
   BondBranches<Real> branches;
-  std::vector<std::int32_t> broken;  ///< by particle, padded; empty: none breaks
+  std::vector<std::int32_t> broken;  ///< one per particle, padded; empty: none breaks
   /// Flow by particle, with a block of zeros at each end, where bonds creep: see kernel::Bonds.
   std::array<Lines<Real>, 6> flow;
   Lines<Real> flows;
-  std::vector<kernel::FlowLook<Real>> look;  ///< by piece; empty: none flows
-  Lines<Real> yield, breaking;               ///< as flow, where particles differ: see kernel::Bonds
+  std::vector<kernel::FlowLook<Real>> look;  ///< one per piece; empty: none flows
+  /// Values laid out as flow, where particles differ: see kernel::Bonds.
+  Lines<Real> yield, breaking;
 
   /// Lengths and stiffness in these units; `id` in the kernel's order.
   void set_units(const Body& body, std::span<const std::int32_t> id, double mass,

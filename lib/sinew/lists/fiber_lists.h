@@ -31,8 +31,8 @@ class FiberLists {
     std::vector<std::uint8_t> near;
     std::vector<kernel::FiberRows> rows;
     Lines<Real> coefficients;         ///< equal rows are stored once
-    Lines<Real> own;                  ///< by particle
-    std::array<Lines<Real>, 3> pull;  ///< by particle, with a block of zeros at each end
+    Lines<Real> own;                  ///< one per particle
+    std::array<Lines<Real>, 3> pull;  ///< one per particle, with a block of zeros at each end
   };
 
   FiberLists() = default;

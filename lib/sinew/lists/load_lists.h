@@ -53,12 +53,12 @@ class LoadLists {
   std::span<const Load> given_;
   double mass_ = 0;
   std::vector<LoadNow> now_;
-  std::vector<std::vector<std::uint32_t>> places_;  ///< by load: of its particles
-  std::vector<std::uint32_t> first_;                ///< of particle k
+  std::vector<std::vector<std::uint32_t>> places_;  ///< places of the particles of each load
+  std::vector<std::uint32_t> first_;                ///< first entry of particle k
   std::vector<Loaded> loaded_;
-  std::vector<std::uint32_t> particles_;  ///< that have some, ascending
-  std::vector<std::uint8_t> on_;          ///< by block
-  double per_force_ = 0;                  ///< of the accelerations, in units of the kernel
+  std::vector<std::uint32_t> particles_;  ///< particles with loads, ascending
+  std::vector<std::uint8_t> on_;          ///< one per block
+  double per_force_ = 0;                  ///< acceleration per force, in units of the kernel
   std::array<std::vector<Real>, 3> acceleration_;
 };
 

@@ -37,8 +37,8 @@ namespace sinew {
 /// Distances that lists hold, and how often the motion of pieces is found.
 struct ListRanges {
   double force = 0;  ///< within which particles interact
-  double inner = 0;  ///< of the inner lists when they were made
-  double outer = 0;  ///< of the outer lists
+  double inner = 0;  ///< range of the inner lists when they were made
+  double outer = 0;  ///< range of the outer lists
   int steps = 8;     ///< between surveys, at least, but where particles travel too far
 };
 
@@ -47,7 +47,7 @@ class NearPieces {
   /// Another piece that may be within the outer range.
   struct Near {
     std::uint32_t piece;
-    float rate;  ///< of approach by the difference of the velocity fields
+    float rate;  ///< rate of approach by the difference of the velocity fields
     double gap;  ///< between the boxes at the survey
     /// How much nearer than at the survey particles may come that the lists do not pair.
     double outer, inner;
@@ -101,7 +101,7 @@ class NearPieces {
   /// How fast particles of a piece move as a rigid body, wherever they have traveled before the
   /// next survey.
   struct Field {
-    Vec3 middle, velocity;  ///< of the box, and there
+    Vec3 middle, velocity;  ///< middle of the box, and the velocity there
     double radius;          ///< around the particles, from there
     double speed;           ///< relative to the common velocity, at most
   };
@@ -140,8 +140,8 @@ class NearPieces {
   bool looks_ = false;
   std::vector<PieceNow> pieces_;
   PieceTree tree_;
-  std::vector<Field> fields_;            ///< by piece
-  std::vector<std::vector<Near>> near_;  ///< by piece, ascending: those not bound to it
+  std::vector<Field> fields_;            ///< one per piece
+  std::vector<std::vector<Near>> near_;  ///< pieces near each, ascending, but for those bound to it
   Vec3 common_ = Vec3::Zero();
   // Relative to the common velocity, of any piece as a rigid body:
   double fastest_point_ = 0;
@@ -152,7 +152,7 @@ class NearPieces {
   std::vector<double> drift_;  ///< before the next survey
   std::vector<double> gone_;   ///< since the survey
   std::vector<double> last_;   ///< in the last step
-  double drifted_ = 0;         ///< of any piece, since the survey
+  double drifted_ = 0;         ///< drift of any piece, since the survey
   double elapsed_ = 0;         ///< since the survey
   int steps_ = 0;              ///< since the survey
   std::vector<Spare> spare_;
@@ -168,7 +168,7 @@ struct GroupedParticles {
   std::function<PieceNow(std::size_t piece)> piece_now = {};
   /// Logarithm of by how much distances in each piece's group may have changed, summed up.
   std::span<const double> strain = {};
-  std::span<const std::uint8_t> working = {};  ///< by piece: a step needs its lists
+  std::span<const std::uint8_t> working = {};  ///< one per piece: a step needs its lists
 };
 
 }  // namespace sinew

@@ -16,7 +16,7 @@ namespace sinew {
 struct OffsetLists {
   std::vector<std::uint32_t> first;  ///< one longer than the piece has blocks
   std::vector<std::int32_t> value;   ///< ascending within a block
-  std::vector<std::uint16_t> lanes;  ///< that each is for; empty: all
+  std::vector<std::uint16_t> lanes;  ///< lanes that each is for; empty: all
 
   kernel::Lists arrays() const {
     return {first.data(), value.data(), lanes.empty() ? nullptr : lanes.data()};
@@ -24,7 +24,7 @@ struct OffsetLists {
 };
 
 struct BlockBoxes {
-  std::vector<kernel::BlockBounds> of_blocks;  ///< by piece
+  std::vector<kernel::BlockBounds> of_blocks;  ///< bounds of each piece's blocks
   std::vector<kernel::BlockBounds> of_pieces;  ///< around as many of them as a piece has blocks
 
   void resize(std::size_t pieces);

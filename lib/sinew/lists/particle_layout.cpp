@@ -131,7 +131,7 @@ void ParticleLayout<Real>::restore(const SimulationState& state) {
 /// Lists count from end to end of the body, which a state from elsewhere may have torn apart.
 template <class Real>
 void ParticleLayout<Real>::check_places(const Columns& moving, const FixedPointUnits& saved) const {
-  constexpr double farthest = 1e6, finest = 1e-12;  // of the body's size
+  constexpr double farthest = 1e6, finest = 1e-12;  // multiples of the body's size
   const double size_now = units_box_.diagonal().norm() + pair_.b;
   const Vec3 middle = units_box_.center();
   const bool known = std::is_same_v<Real, double>

@@ -61,7 +61,7 @@ class ParticleLayout {
   double step_ = 0;  ///< s
   Units units_;
   Box units_box_;        ///< around the particles when the units were last checked, m
-  double traveled_ = 0;  ///< by any particle since then, at most, m
+  double traveled_ = 0;  ///< upper bound for any particle since then, m
   std::vector<std::int32_t> id_;
   std::vector<std::uint32_t> caller_;
 };

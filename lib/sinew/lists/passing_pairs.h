@@ -30,9 +30,9 @@ class PassingPairs {
   bool pass(std::size_t i, std::size_t j) const;
 
   const Body* body_ = nullptr;  ///< none: nothing passes
-  double near2_ = 0;            ///< squared, of near_at_rest()
+  double near2_ = 0;            ///< square of near_at_rest()
   std::vector<std::int32_t> id_;
-  std::vector<std::int32_t> bone_;  ///< of those that pass through some; else -1
+  std::vector<std::int32_t> bone_;  ///< bones of particles that pass through some; else -1
 };
 
 }  // namespace sinew

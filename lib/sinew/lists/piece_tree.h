@@ -25,7 +25,8 @@ struct PieceNow {
   Eigen::Index shortest = 0;  ///< side of that one; found by the survey
 
   Vec3 velocity_at(const Vec3& p) const { return velocity + spin.cross(p - center); }
-  Vec3 middle() const { return center + axes * along.center(); }  ///< of the box along its axes
+  /// Middle of the box along its axes.
+  Vec3 middle() const { return center + axes * along.center(); }
 };
 
 /// No two particles of both are nearer to each other.

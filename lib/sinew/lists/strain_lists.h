@@ -23,7 +23,7 @@ template <class Real>
 struct StrainLists {
   // Values by particle, with a block of zeros at each end.
   std::array<Lines<Real>, 6> inverse;
-  Lines<Real> stiffness, growth;  ///< of volumes; empty: none is kept
+  Lines<Real> stiffness, growth;  ///< arrays of volumes; empty: none is kept
   std::array<Lines<Real>, 9> thrust;
   FiberLists<Real> fibers;
 

@@ -14,11 +14,11 @@
 namespace sinew {
 
 struct Subpieces {
-  std::vector<std::uint32_t>
-      first;  ///< particle of each subpiece; then how many particles there are
-  std::vector<std::uint32_t> of_block;  ///< that of its first particle
+  /// First particle of each subpiece; then how many particles there are.
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> of_block;  ///< subpiece of its first particle
   std::vector<std::uint32_t> of_piece;  ///< the first one; one longer than there are pieces
-  std::vector<std::uint32_t> piece;     ///< of each subpiece
+  std::vector<std::uint32_t> piece;     ///< piece of each subpiece
 
   std::size_t size() const { return piece.size(); }
 };

@@ -116,7 +116,7 @@ class VerletLists {
   bool looks_ = false;  ///< bonds may flow
   ListRanges wanted_;   ///< m
   double step_ = 0;     ///< s
-  double time_ = 0;     ///< of a step, in times of the kernel
+  double time_ = 0;     ///< length of a step, in times of the kernel
   ListRanges ranges_;   ///< in its lengths
 
   Subpieces of_;
@@ -124,20 +124,20 @@ class VerletLists {
   NearPieces near_;
   std::vector<Real> fastest_;  ///< squared, in the last step
   std::vector<kernel::RigidMotion<Real>> motions_;
-  std::vector<Vec3> centers_;  ///< of them at the survey
-  std::vector<Mat3> axes_;     ///< of the particles, at the last survey
-  std::vector<double> speed_;  ///< of the velocity field, at most
+  std::vector<Vec3> centers_;  ///< centers of the subpieces at the survey
+  std::vector<Mat3> axes_;     ///< axes of the particles, at the last survey
+  std::vector<double> speed_;  ///< upper bound of the velocity field
   double elapsed_ = 0;         ///< since the survey, in times of the kernel
   // Values by piece:
   std::vector<OffsetLists> outer_, inner_;
   std::vector<kernel::Lists> arrays_;
-  std::vector<std::uint8_t> grouped_;  ///< of one group alone
+  std::vector<std::uint8_t> grouped_;  ///< pieces of one group alone
   bool whole_ = false;
   BlockBoxes boxes_;
-  std::vector<std::int64_t> boxed_;  ///< by piece: the moment for which its boxes are valid
+  std::vector<std::int64_t> boxed_;  ///< moment for which each piece's boxes are valid
   std::int64_t moment_ = 0;
   std::vector<std::uint32_t> changed_;
-  std::vector<std::uint8_t> looked_;  ///< by piece
+  std::vector<std::uint8_t> looked_;  ///< one per piece
   /// Strain of each piece of a group when its lists were made.
   std::vector<double> listed_at_, pruned_at_;
 
