@@ -59,7 +59,7 @@ struct DynamicOptions {
   /// In radii. What joins a group is moved by less (root mean square, half as much where it was
   /// free); what leaves it would be, by the forces that hold it there.
   double tolerance = 0.15;
-  SharedNeighbors near = {};  ///< of the body, which may have released its own
+  SharedNeighbors near = {};  ///< neighbors of the body, which may have released its own
 };
 
 /// The stretches of a group between which forces act between those particles alone that the layers

@@ -62,7 +62,7 @@ class Approach {
  private:
   struct Moment {
     Pose pose;
-    std::vector<RigidFrame> frames;  ///< of the obstacles
+    std::vector<RigidFrame> frames;  ///< frames of the obstacles
   };
 
   /// Returns where it is in the obstacle's coordinates.

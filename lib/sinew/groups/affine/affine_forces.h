@@ -31,9 +31,9 @@ bool has_affine_forces(const Body& body);
 struct AffineMoments {
   std::array<double, near_sites> bonds{};  ///< factors on their stiffness, by direction
   std::array<Vec3, near_sites> bonds_X;    ///< times X
-  Vec3 behind = Vec3::Zero();              ///< from each to the mean of its neighbors, m
+  Vec3 behind = Vec3::Zero();              ///< vector from each to the mean of its neighbors, m
   Mat3 behind_X = Mat3::Zero();
-  Vec3 swell = Vec3::Zero();  ///< of the stiffness of volumes, N
+  Vec3 swell = Vec3::Zero();  ///< sum for the stiffness of volumes, N
   Mat3 swell_X = Mat3::Zero();
 
   AffineMoments() { bonds_X.fill(Vec3::Zero()); }
@@ -72,10 +72,10 @@ class AffineForces {
 
   const Body* body_;
   bool keeps_volume_;
-  double range_;  ///< of what neighbors are, m
+  double range_;  ///< range of neighbors, m
   CellGrid grid_;
   Points site_;                ///< m
-  std::array<int, 125> at_{};  ///< of whole coordinates in half-planes, -2 to 2 each
+  std::array<int, 125> at_{};  ///< sites by whole coordinates in half-planes, -2 to 2 each
 };
 
 }  // namespace sinew

@@ -9,8 +9,8 @@
 namespace sinew {
 namespace {
 
-constexpr double flattest = 1e-6;   // of mean squares along an axis, of the largest
-constexpr double min_apart = 1e-7;  // eigenvalue of products, of the largest
+constexpr double flattest = 1e-6;   // mean square along an axis, over the largest
+constexpr double min_apart = 1e-7;  // eigenvalue of products, over the largest
 
 /// Returns the mean square of values less a polynomial, by sums of their squares and times terms.
 double mean_square(double squares, const Coefficients& times_terms, const TermProducts& products,

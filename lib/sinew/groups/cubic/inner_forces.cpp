@@ -11,7 +11,7 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t blocks_at_a_time = 2048, bonds_per_task = 512;
-constexpr std::size_t vector_of_doubles = 8;  // of 64 bytes
+constexpr std::size_t vector_of_doubles = 8;  // doubles in 64 bytes
 constexpr std::uint32_t nearest_ones = (1U << nearest_sites) - 1;
 
 using SquareSums = Eigen::Matrix<double, square_terms, 3>;
@@ -59,9 +59,9 @@ struct InnerForces<Real>::Reach {
 template <class Real>
 struct InnerForces<Real>::Found {
   struct OfGroup {
-    std::array<std::size_t, near_sites> count{};   ///< by leading site
-    std::array<QuarticTerms, near_sites> moments;  ///< of near ends, times factors
-    Growth products = Growth::Zero();  ///< of terms and square terms, where no neighbor is missing
+    std::array<std::size_t, near_sites> count{};   ///< one per leading site
+    std::array<QuarticTerms, near_sites> moments;  ///< moments of near ends, times factors
+    Growth products = Growth::Zero();  ///< terms times square terms, where no neighbor is missing
     Eigen::Matrix<double, cubic_terms, cubic_terms> drag =
         Eigen::Matrix<double, cubic_terms, cubic_terms>::Zero();  ///< elsewhere
 

@@ -39,9 +39,9 @@ struct GroupForces {
 struct InnerParticles {
   std::span<const std::int32_t> id, group;    ///< group -1: free
   std::array<std::span<const double>, 3> at;  ///< in the frame of the group
-  std::span<const std::uint8_t> idle;         ///< by block: the kernel leaves it out
-  std::vector<Mat3> frames;                   ///< by group: of differences at rest, 1/m
-  std::vector<std::uint8_t> cubic;            ///< by group
+  std::span<const std::uint8_t> idle;         ///< one per block: the kernel leaves it out
+  std::vector<Mat3> frames;                   ///< frame of differences at rest, one per group, 1/m
+  std::vector<std::uint8_t> cubic;            ///< one per group
 };
 
 template <class Real>
@@ -72,7 +72,7 @@ class InnerForces {
   /// Constant.
   struct Group {
     bool cubic = false;
-    std::array<Growth, near_sites> growth;  ///< by site
+    std::array<Growth, near_sites> growth;  ///< one per site
     Eigen::Matrix<double, cubic_terms, cubic_terms> drag;
   };
   struct Reach;
@@ -83,7 +83,7 @@ class InnerForces {
   double factor(const InnerParticles& of, std::size_t near, std::size_t far) const;
   Found found_in(const BondLists<Real>& bonds, const InnerParticles& of, std::size_t begin,
                  std::size_t end) const;
-  using Counts = std::vector<std::size_t>;  ///< of bonds, by group and site
+  using Counts = std::vector<std::size_t>;  ///< numbers of bonds, by group and site
   using Take = std::function<bool(std::size_t of, std::size_t nth)>;
   static bool is_inner(const InnerParticles& of, std::size_t b) {
     return of.idle[b] != 0 && of.cubic[static_cast<std::size_t>(of.group[b * block])] != 0;
@@ -99,11 +99,11 @@ class InnerForces {
 
   const Body* body_ = nullptr;
   Points site_;                    ///< m
-  std::vector<int> site_of_kind_;  ///< of bonds
-  std::uint32_t leading_ = 0;      ///< of each site and its opposite, one
+  std::vector<int> site_of_kind_;  ///< site of each kind of bond
+  std::uint32_t leading_ = 0;      ///< one of each site and its opposite
   std::vector<Group> groups_;
   std::vector<Task> tasks_;
-  std::array<std::vector<double>, 3> at_;  ///< of near ends, in their group's frame
+  std::array<std::vector<double>, 3> at_;  ///< places of near ends, in their group's frame
   std::vector<double> weight_, contact_;   ///< on the stiffness, and on contacts; 0: padding
 };
 

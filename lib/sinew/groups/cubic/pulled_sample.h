@@ -49,7 +49,7 @@ class PulledSample {
 
   Quadrature quadrature_;
   std::vector<PulledRun> runs_;
-  std::vector<std::uint32_t> number_;  ///< of each sample: its block here
+  std::vector<std::uint32_t> number_;  ///< number of each sample's block here
   std::array<std::vector<double>, 3> at_;
   std::array<Lines<Real>, 3> at_of_kernel_;
   BlockState<Real> state_;

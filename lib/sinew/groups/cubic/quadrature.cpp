@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t min_samples = 128;
 // What has fewer is small, and what pulls it is nearly linear there.
 constexpr std::size_t few_blocks = 512, min_of_few = 64;
-constexpr double min_weight = 0.1, max_weight = 5;  // of equal weights
+constexpr double min_weight = 0.1, max_weight = 5;  // multiples of equal weights
 constexpr int max_fits = 30;
 
 /// The upper bits of a number that looks like chance: rows of a lattice repeat, samples must not.

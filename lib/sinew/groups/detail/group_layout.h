@@ -112,17 +112,17 @@ class GroupLayout {
   const Body* body_ = nullptr;
   const std::vector<GroupShape>* shapes_ = nullptr;
   Places places_;
-  std::vector<std::int32_t> role_;      ///< by block: kernel::Role, or a row
-  std::vector<std::uint8_t> inactive_;  ///< by block
-  std::vector<std::uint8_t> whole_;     ///< by block
-  std::vector<std::uint8_t> idle_;      ///< by block: unless it is awake
-  std::vector<std::uint8_t> always_;    ///< by block: idle, but read in every step
+  std::vector<std::int32_t> role_;      ///< one per block: kernel::Role, or a row
+  std::vector<std::uint8_t> inactive_;  ///< one per block
+  std::vector<std::uint8_t> whole_;     ///< one per block
+  std::vector<std::uint8_t> idle_;      ///< one per block: idle unless it is awake
+  std::vector<std::uint8_t> always_;    ///< one per block: idle, but read in every step
   std::vector<std::int32_t> of_piece_;
   std::vector<std::uint8_t> working_;
-  std::vector<GroupRun> rim_;                  ///< of the blocks with rows
-  std::vector<GroupRun> steady_;               ///< placed before each step
-  std::int32_t rows_ = 0;                      ///< of rims; those of what is awake follow
-  std::vector<std::vector<Watched>> watched_;  ///< by piece
+  std::vector<GroupRun> rim_;     ///< runs of the blocks with rows
+  std::vector<GroupRun> steady_;  ///< placed before each step
+  std::int32_t rows_ = 0;         ///< number of rows of rims; those of what is awake follow
+  std::vector<std::vector<Watched>> watched_;  ///< one list per piece
   std::vector<std::uint32_t> watching_;        ///< pieces that have any, ascending
   std::vector<std::uint32_t> active_;
   bool two_deep_ = false, more_are_read_ = true;

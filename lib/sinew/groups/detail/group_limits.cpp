@@ -21,10 +21,10 @@ constexpr std::size_t boxes_at_a_time = 64;
 // Rates of strain are found once in so many steps; until then they grow by less than this factor.
 constexpr int steps_between_rates = 8;
 constexpr double rates_ahead = 1.25;
-constexpr double max_margin = 0.2;      // of strain, between looks at stretches
+constexpr double max_margin = 0.2;      // strain between looks at stretches
 constexpr double enough = 1.05;         // times what a length must keep
 constexpr double min_looked_at = 0.35;  // stretch that ends a run in any case
-constexpr double min_change = 0.02;     // of stretches within a box, which is not cut further
+constexpr double min_change = 0.02;  // change of stretches within a box, which is not cut further
 
 /// Largest sizes of second derivatives within a group.
 struct Curvature {

@@ -80,10 +80,10 @@ class GroupLimits {
   StretchRange stretch_{};
   Points far_sites_;  ///< m: of particles that may not touch in cubic groups
   std::vector<PieceBox> boxes_;
-  std::vector<std::uint32_t> box_of_;   ///< by piece: of a group, its place in boxes_
-  std::vector<double> strains_;         ///< by piece
-  std::vector<double> strained_until_;  ///< by piece: when its stretches must be looked at
-  std::vector<double> rates_;           ///< by box, of strain, 1/s
+  std::vector<std::uint32_t> box_of_;   ///< one per piece: place in boxes_ of pieces of a group
+  std::vector<double> strains_;         ///< one per piece
+  std::vector<double> strained_until_;  ///< one per piece: when its stretches must be looked at
+  std::vector<double> rates_;           ///< rate of strain of each box, 1/s
   int steps_ = 0;                       ///< since they were found everywhere
 };
 

@@ -68,7 +68,7 @@ class GroupMotions {
   /// Sums over particles in idle blocks.
   struct Idle {
     Terms terms = Terms::Zero();
-    AffineMoments skin;  ///< of affine groups
+    AffineMoments skin;  ///< skin of affine groups
   };
   /// An idle block with a part of the skin.
   struct SkinBlock {
@@ -107,13 +107,13 @@ class GroupMotions {
   std::optional<AffineForces> affine_;
   std::optional<InnerForces<Real>> inner_;
   PulledSample<Real> sample_;
-  std::vector<Idle> idle_;  ///< by group
+  std::vector<Idle> idle_;  ///< one per group
   std::vector<SkinBlock> skins_;
-  std::vector<std::int32_t> skin_at_;  ///< by block: its place there, or -1
+  std::vector<std::int32_t> skin_at_;  ///< one per block: its place there, or -1
   std::vector<GroupMotion> motions_, next_;
-  std::vector<Coefficients> accelerations_;        ///< of the last step, m/s^2
+  std::vector<Coefficients> accelerations_;        ///< accelerations of the last step, m/s^2
   std::array<std::vector<Real>, 3> acceleration_;  ///< what the kernel gathers, by row
-  std::vector<std::int64_t> shown_;                ///< by piece: when all was last placed
+  std::vector<std::int64_t> shown_;                ///< one per piece: when all was last placed
   std::int64_t moment_ = 0;
   GroupSums sums_;
 };

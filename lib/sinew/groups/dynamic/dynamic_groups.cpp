@@ -21,11 +21,11 @@ constexpr std::size_t particles_per_count = 8192;
 constexpr int moments_ahead = 16;
 // Groups are worth the work of making them if no joint of theirs moves for so many checks.
 constexpr double checks_ahead = 16;
-constexpr int max_rounds = 4;  // of what is grown and found not to fit
+constexpr int max_rounds = 4;  // rounds of what is grown and found not to fit
 // Fraction of how far off the worst is, squared, from which on others leave with it.
 constexpr double leaving_fraction = 0.25;
-constexpr double free_fraction = 0.5;  // of the tolerance, for what was free
-constexpr double torn_fraction = 0.5;  // of the tolerance: what leaves where something must
+constexpr double free_fraction = 0.5;  // fraction of the tolerance, for what was free
+constexpr double torn_fraction = 0.5;  // fraction of the tolerance: what leaves where some must
 // Stiffness against moving a particle while its neighbors stay, in stiffnesses of a bond.
 constexpr double stiffness_of_place = 4;
 

@@ -34,7 +34,7 @@ struct GroupingMoment {
 };
 
 struct NewGroups {
-  std::vector<std::int32_t> group;  ///< by particle id, -1: free; numbered anyhow
+  std::vector<std::int32_t> group;  ///< one per particle id, -1: free; numbered anyhow
   std::vector<double> still_since;
 };
 
@@ -62,8 +62,8 @@ class DynamicGroups {
   /// What new groups follow from.
   struct Asked {
     const GroupingMoment& now;
-    const std::vector<bool>& moves;         ///< of each bone, its joint with its parent
-    const std::vector<std::uint8_t>& torn;  ///< by cell: nothing of it joins
+    const std::vector<bool>& moves;  ///< one per bone: whether its joint with its parent moves
+    const std::vector<std::uint8_t>& torn;  ///< one per cell: nothing of it joins
     const Particles& particles;
     std::set<int> bend;  ///< assemblies with cubic groups, which have no affine ones
   };

@@ -38,12 +38,12 @@ struct AffineSums {
 struct Unit {
   std::int32_t cell = 0;
   int assembly = -1;
-  std::int32_t group = -1;   ///< that it joins
+  std::int32_t group = -1;   ///< group that it joins
   std::int32_t was_in = -1;  ///< group of all of its particles; -1: none
   bool fits = true;
   AffineSums sums;
   AffineMap map;
-  Residual own;  ///< from its map
+  Residual own;  ///< residual from its map
 
   bool was_grouped() const { return was_in >= 0; }
   /// Returns how far it is from another map.
