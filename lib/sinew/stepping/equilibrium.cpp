@@ -15,15 +15,15 @@
 namespace sinew {
 namespace {
 
-constexpr double shortest = 1.0 / 64;  // of the step, before a body counts as unstable
+constexpr double shortest = 1.0 / 64;  // fraction of the step, before a body counts as unstable
 // Fraction of the shear beyond yield that flows in an iteration.
 constexpr double flow_fraction = 0.1;
 // Increments of the way from one moment to the next, in parts of it.
 constexpr double shortest_increment = 1.0 / 16;
 constexpr double longer_by = 2, shorter_by = 0.25;  // at most
-constexpr double margin = 0.8;                      // of the strain that an increment may have
-constexpr double near_rounding = 20;                // times the noise, which is an estimate
-constexpr double at_rounding = 3;                   // times the noise: forces that are nothing else
+constexpr double margin = 0.8;        // fraction of the strain that an increment may have
+constexpr double near_rounding = 20;  // times the noise, which is an estimate
+constexpr double at_rounding = 3;     // times the noise: forces that are nothing else
 // Times the noise: forces of supports and bones where nothing loads a body, as that of a grip which
 // carries it along.
 constexpr double free_of_force = 1e3;
@@ -54,7 +54,7 @@ ObstacleMotion standing(const ObstacleMotion& motion) {
 
 /// What rounding leaves of the forces on all particles, N: in units of positions.
 double noise_of(const Body& body, double unit) {
-  constexpr double each = 10;  // of a particle's bonds together, measured at rest
+  constexpr double each = 10;  // noise of a particle's bonds together, measured at rest
   double relative = body.stiffness.empty() ? static_cast<double>(body.rest.size()) : 0;
   for (const double stiffness : body.stiffness) relative += stiffness;
   return each * relative * body.material.stiffness() * unit;

@@ -42,7 +42,7 @@ struct RelaxationState {
   double unbalanced = 0;        ///< forces in the last iteration that nothing answered, N
   double best = 0;              ///< the smallest of these that counted as progress, N
   std::int64_t best_at = 0;     ///< the iteration in which it was reached
-  std::int64_t newton = 0;      ///< of these iterations, Newton's; -1: it led nowhere
+  std::int64_t newton = 0;      ///< iterations among these that are Newton's; -1: it led nowhere
   std::int64_t negative = 0;    ///< pivots at most, of the factors of the increment
   std::int64_t unstable = 0;    ///< equilibria found on that way from which the body would buckle
 };
@@ -84,8 +84,8 @@ struct StaticCost {
   /// that, an upper bound beyond max_factor.
   double nonzeros = 0;
   double newton = std::numeric_limits<double>::infinity();  ///< its time by Newton's method, s
-  double relaxation = 0;  ///< by relaxation, s: both of one core of some 2.5 GHz
-  double iterations = 0;  ///< of a relaxation, for a body that is held at one end
+  double relaxation = 0;  ///< time by relaxation, s: both of one core of some 2.5 GHz
+  double iterations = 0;  ///< iterations of a relaxation, for a body that is held at one end
 };
 /// Foresees it for a body that is brought to this `residual`, without the factor.
 StaticCost relaxation_cost(const Body& body, double residual);
@@ -96,7 +96,7 @@ StaticCost with_factor(StaticCost cost, const Body& body);
 struct LoadSteps {
   double interval = 0;     ///< s
   int count = 1;           ///< moments, that at 0 included
-  double residual = 1e-6;  ///< of forces that nothing answers, over the largest of those applied
+  double residual = 1e-6;  ///< forces that nothing answers, over the largest of those applied
   std::int64_t max_iterations = 200'000;  ///< for each moment
   /// Before each moment, how many iterations bones and surroundings take to get there from the one
   /// before; none: one each.
@@ -124,7 +124,7 @@ std::string why_not_newton(const Body& body, const Stepping& stepping);
 /// How a body came to rest at a moment.
 struct Equilibrium {
   std::int64_t iterations = 0;  ///< since the moment before
-  std::int64_t increments = 1;  ///< of the way from there
+  std::int64_t increments = 1;  ///< increments of the way from there
   double residual = 0;
   std::size_t inverted = 0;  ///< particles
   /// Unstable equilibria on the way, by negative pivots: the body may buckle this way or another.
@@ -155,7 +155,7 @@ class Relaxation {
     double step = 0;        ///< the largest, s
     double noise = 0;       ///< what rounding leaves of the forces on all particles, N
     double negligible = 0;  ///< the same in double precision, N
-    double radius = 0;      ///< of a particle, m
+    double radius = 0;      ///< radius of a particle, m
   };
   Relaxation(LoadSteps steps, const Iteration& iteration);
 

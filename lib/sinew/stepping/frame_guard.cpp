@@ -22,7 +22,7 @@ constexpr double max_residual = 0.2;
 // Below the limit, since damping has less to slow then.
 constexpr double limited_to = 0.8 * max_radii_per_step;
 constexpr int max_limits_in_step = 10;
-constexpr double max_limited = 0.1;  // of the particles, in a frame
+constexpr double max_limited = 0.1;  // fraction of the particles, in a frame
 
 }  // namespace
 

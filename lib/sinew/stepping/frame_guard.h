@@ -24,10 +24,10 @@ namespace sinew {
 
 /// State of who takes frames anew in which steps fail.
 struct GuardState {
-  std::vector<std::int32_t> divided = {};  ///< by two: a frame, by what its steps were divided
-  std::int32_t divisor = 1;                ///< of the present frame
+  std::vector<std::int32_t> divided = {};  ///< pairs: a frame, by what its steps were divided
+  std::int32_t divisor = 1;                ///< divisor of the present frame
   bool lenient = false;                    ///< particles may snap, as long as energies balance
-  double residual = 0, turnover = 0;       ///< of the balance when that began, J
+  double residual = 0, turnover = 0;       ///< energies of the balance when that began, J
 };
 
 template <class Archive>
@@ -50,8 +50,8 @@ class Simulation;
 /// A frame that is taken anew.
 struct Retake {
   int frame = 0;
-  int divisor = 1;             ///< of its steps, from now on
-  double residual = 0;         ///< of the balance of energies, over the energy that was turned over
+  int divisor = 1;             ///< divisor of its steps, from now on
+  double residual = 0;         ///< residual of the balance of energies, over the energy turned over
   bool moved_too_far = false;  ///< a particle, in a step; else the balance did not hold
 };
 

@@ -76,11 +76,11 @@ struct Simulation::Impl {
   StepPlan plan;
   std::int64_t plan_from = 0;  ///< the step at which the plan begins, and its time, s
   double plan_since = 0;
-  double unit_of_time;  ///< of velocities in single precision, s
+  double unit_of_time;  ///< time unit of velocities in single precision, s
   std::int64_t steps = 0;
   MakeStepper make;
   std::unique_ptr<Stepper> stepper;
-  std::unique_ptr<LoadIncrements> increments;  ///< of what is brought to rest
+  std::unique_ptr<LoadIncrements> increments;  ///< increments of what is brought to rest
   std::unique_ptr<DynamicGrouping> dynamic;
   EnergyLedger ledger, world_ledger;
   double held_at_start = 0;  ///< kinetic energy of what pins hold, J
@@ -89,8 +89,8 @@ struct Simulation::Impl {
   std::vector<Offender> offenders;
   std::vector<TimedPose> moments;  ///< memory of those of the steps
   std::vector<StepSums> sums;      ///< the same
-  Particles particles;             ///< as read last; radius, mass and ids are always valid
-  bool read = false;               ///< whether they are those of the present moment
+  Particles particles;  ///< particles as read last; radius, mass and ids are always valid
+  bool read = false;    ///< whether they are those of the present moment
   Forces forces;
   Balance balance;
   bool evaluated = false;
@@ -269,7 +269,7 @@ bool Simulation::try_advance(std::int64_t steps) {
     if (const double next = its_->plan.step(its_->steps - its_->plan_from);
         next != its_->stepping.step)
       change_step(next);
-    its_->evaluated = false;  // of the moment before these
+    its_->evaluated = false;  // values are of the moment before these
     const std::int64_t count = steps_of_one_size(steps);
     if (!make_steps(count)) return false;
     steps -= count;

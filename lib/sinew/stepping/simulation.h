@@ -126,7 +126,7 @@ class Simulation {
   /// their bones do on them part of the bones'.
   std::size_t limit_offenders(double radii);
   const LimitedSpeeds& limited() const;
-  void begin_counting();  ///< of `in_frame`
+  void begin_counting();  ///< starts `in_frame` anew
 
   // The present moment.
 

@@ -42,22 +42,22 @@ struct Failure {
 /// How far from equilibrium a body is at the positions that a step began with: sums over what is
 /// free to move.
 struct Imbalance {
-  double aa = 0, av = 0, vv = 0;  ///< of accelerations a and velocities v, m^2/s^4 to m^2/s^2
+  double aa = 0, av = 0, vv = 0;  ///< sums of accelerations a and velocities v, m^2/s^4 to m^2/s^2
   double flowing = 0;             ///< energy lost to bonds that flow or break, W
   double unbalanced = 0;  ///< the lengths of all forces on particles that nothing answers, N
   /// The largest of these, N: the lengths of all forces of loads, obstacles and (half) pins; the
   /// weight; half those of bones and fibers; a support's force, and its moment over the extent.
   double applied = 0;
-  double loaded = 0;  ///< of it, by loads and the weight alone: exactly 0 without
+  double loaded = 0;  ///< part of it by loads and the weight alone: exactly 0 without
 };
 
 /// Contributions of a step to the ledger, at the moment of the positions it began with.
 struct StepSums {
-  double power = 0;  ///< of the bones, W
+  double power = 0;  ///< power of the bones, W
   double lost = 0;   ///< to damping, drag and friction, W
   std::optional<Failure> failure;
-  double world_power = 0;   ///< of moving obstacles, fields, muscles and pins, W
-  double held_kinetic = 0;  ///< of particles that pins hold, J
+  double world_power = 0;   ///< power of moving obstacles, fields, muscles and pins, W
+  double held_kinetic = 0;  ///< energy of particles that pins hold, J
   Imbalance imbalance;      ///< only of steps that relax
 };
 
@@ -67,7 +67,7 @@ struct Balance {
   double pair_energy = 0, bone_energy = 0;  ///< J
   double world_power = 0;                   ///< W
   double contact_energy = 0;                ///< in the springs of obstacles, J
-  double held_kinetic = 0;                  ///< of particles that pins hold, J
+  double held_kinetic = 0;                  ///< energy of particles that pins hold, J
 };
 
 /// A time (s) and the pose of the bones then.
@@ -79,9 +79,9 @@ struct TimedPose {
 /// What acts between the body and its world, one for each obstacle, bone, support and load of it;
 /// empty without a world.
 struct WorldReactions {
-  std::vector<Reaction> obstacles;        ///< of the body on each, about its frame
-  std::vector<Reaction> pins;             ///< of the body on each bone through pins, about its head
-  std::vector<Reaction> supports, loads;  ///< of each on the body, about its pivot
+  std::vector<Reaction> obstacles;  ///< reactions of the body on each, about its frame
+  std::vector<Reaction> pins;       ///< reactions of the body on each bone by pins, about its head
+  std::vector<Reaction> supports, loads;  ///< reactions of each on the body, about its pivot
 
   /// Adds those of damping relative to bones, which count as of pins, and supports.
   void add(const WorldReactions& of_damping);

@@ -67,7 +67,7 @@ class CellStepper final : public Stepper {
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
   Particles particles_;
-  std::optional<Solid> solid_;  ///< of materials whose forces depend on the neighbors at rest
+  std::optional<Solid> solid_;  ///< solid of materials whose forces depend on the neighbors at rest
   Forces forces_;
   MovingInDouble before_;  ///< the step
   std::vector<ParticleWorld> around_;
@@ -75,16 +75,16 @@ class CellStepper final : public Stepper {
   SlidingContacts sliding_;
   bool stepping_now_ = false;  ///< the forces are those of a step, not only looked at
   std::vector<LoadNow> loads_;
-  std::vector<Reaction> reactions_;  ///< of obstacles
+  std::vector<Reaction> reactions_;  ///< reactions of obstacles
   std::vector<Reaction> of_pins_;    ///< on bones
   std::vector<Reaction> of_supports_, of_loads_;
   RigidReferences references_;
   std::int64_t steps_ = 0;
   WorldReactions of_rigid_;         ///< damping
-  double rigid_power_ = 0;          ///< of what that is relative to, W
+  double rigid_power_ = 0;          ///< power of what that is relative to, W
   std::vector<std::size_t> held_;   ///< index of the particle of each pin of the world
   std::vector<bool> is_held_;       ///< empty without pins
-  std::vector<std::size_t> place_;  ///< of a particle, by id; empty without a world
+  std::vector<std::size_t> place_;  ///< place of a particle, by id; empty without a world
   bool kicked_ = false;  ///< velocities are half a step behind positions (velocity Verlet)
   double max_radii_ = max_radii_per_step;
 };

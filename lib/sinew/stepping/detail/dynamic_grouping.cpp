@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t steps_between_checks = 32;
 // Looking for what may join takes as long as many steps within groups do.
 constexpr std::int64_t steps_between_merges = 512;
-constexpr double min_gain = 0.05;  // of the particles, in groups
+constexpr double min_gain = 0.05;  // fraction of the particles, in groups
 
 std::size_t count_grouped(const std::vector<std::int32_t>& group) {
   return static_cast<std::size_t>(

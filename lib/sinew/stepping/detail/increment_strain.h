@@ -30,7 +30,7 @@ class StrainMeter {
   std::size_t inverted_in(const Points& positions) const;
 
   RestShape shape_;
-  bool all_count_;  ///< of the pairs
+  bool all_count_;  ///< all pairs count
   double range_;    ///< beyond which a pair has parted, m
   Points begin_;
   std::size_t inverted_ = 0;

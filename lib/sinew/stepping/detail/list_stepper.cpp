@@ -334,7 +334,7 @@ void ListStepper<Real>::sort() {
     ++sorts_;
     if (!lists_.whole()) make_lists();
     find_slots();
-    bonds_ = bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units());  // of muscles
+    bonds_ = bond_lists<Real>(*body_, mass_, layout_.id(), layout_.units());  // bonds of muscles
     strain_ = strain_lists<Real>(*body_, mass_, layout_.id(), bonds_, layout_.units());
   }
   sorting_ += watch.lap();

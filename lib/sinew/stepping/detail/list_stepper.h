@@ -91,11 +91,11 @@ class ListStepper final : public Stepper {
 
   std::shared_ptr<const Body> body_;
   Stepping stepping_;
-  double mass_;    ///< of a particle of the material's density, kg
-  double extent_;  ///< of the body at rest, m
+  double mass_;    ///< mass of a particle of the material's density, kg
+  double extent_;  ///< extent of the body at rest, m
   kernel::Functions<Real> kernel_;
   kernel::PairLaw law_;
-  kernel::LawFunctions<Real> work_;  ///< of the material's law
+  kernel::LawFunctions<Real> work_;  ///< functions of the material's law
   ParticleLayout<Real> layout_;
   BoneSlots<Real> slots_;
   BondLists<Real> bonds_;
@@ -103,13 +103,13 @@ class ListStepper final : public Stepper {
   Surroundings<Real> surroundings_;
   Groups<Real> groups_;
   RigidBrakes<Real> brakes_;
-  WorldReactions of_brakes_;               ///< of the last probe
+  WorldReactions of_brakes_;               ///< reactions in the last probe
   bool counted_ = false;                   ///< the neighbors of all particles, in the present order
-  std::vector<std::uint8_t> bonds_count_;  ///< by piece: its counts are of bonds alone
-  std::vector<double> moved_;              ///< by pins, by piece, since the lists followed, m
-  std::vector<Real> masses_;               ///< over mass_, padded at the end; empty: 1 each
-  std::vector<std::uint8_t> careful_;      ///< by vector of particles; see kernel::Step
-  std::vector<Real> inverse_count_;        ///< padded; empty unless damping acts pair by pair
+  std::vector<std::uint8_t> bonds_count_;  ///< one per piece: its counts are of bonds alone
+  std::vector<double> moved_;          ///< distance by pins, by piece, since the lists followed, m
+  std::vector<Real> masses_;           ///< over mass_, padded at the end; empty: 1 each
+  std::vector<std::uint8_t> careful_;  ///< one per vector of particles; see kernel::Step
+  std::vector<Real> inverse_count_;    ///< padded; empty unless damping acts pair by pair
   std::vector<kernel::BoneNow<Real>> bones_;  ///< at the present pose
   std::int64_t steps_ = 0;
   bool kicked_ = false;  ///< velocities are half a step behind positions (velocity Verlet)

@@ -33,7 +33,7 @@ std::string why_not_in(const World& world) {
 struct Layer {
   std::size_t size = 0;
   Vec3 middle = Vec3::Zero();  ///< m
-  bool first = false;          ///< of its piece
+  bool first = false;          ///< first of its piece
 };
 
 Layer layer_of(const std::vector<std::uint32_t>& particles, const Points& rest) {

@@ -30,7 +30,7 @@ class Newton {
 
   /// What a solution came to.
   struct Solution {
-    Points positions;           ///< by it, m
+    Points positions;           ///< positions that it leads to, m
     std::int64_t negative = 0;  ///< pivots: the body would buckle there
   };
   /// Where the body comes to, by its tangent at `begin`, where it is at rest, when all that acts on

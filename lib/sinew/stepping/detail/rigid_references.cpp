@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t block_of_sums = 2048, blocks_per_task = 4;
 // The step count alone decides, so that a resumed run looks when an uninterrupted one does.
 constexpr std::int64_t steps_between_looks = 64;
-constexpr double no_inertia = 1e-12;  // of the largest: as of particles in a row
+constexpr double no_inertia = 1e-12;  // fraction of the largest: as of particles in a row
 
 template <class Real>
 Vec3 place(const kernel::State<Real>& state, const Units& units, std::size_t k) {
@@ -122,7 +122,7 @@ RigidReferences::Sums RigidReferences::sums_of(const kernel::State<Real>& state,
 AffineMotion RigidReferences::motion_of(const Part& part, const Sums& sums, const Vec3& about,
                                         std::span<const Vec3> pins) const {
   const double mass = sums[0];
-  const Vec3 off = Vec3(sums[1], sums[2], sums[3]) / mass;  // of the center of mass
+  const Vec3 off = Vec3(sums[1], sums[2], sums[3]) / mass;  // offset of the center of mass
   const Vec3 p(sums[10], sums[11], sums[12]);
   Mat3 second;
   second << sums[4], sums[9], sums[8], sums[9], sums[5], sums[7], sums[8], sums[7], sums[6];

@@ -51,7 +51,7 @@ class RigidReferences {
  private:
   struct Part {
     std::uint32_t reference;
-    std::size_t first;              ///< of its particles, about which sums are
+    std::size_t first;              ///< first of its particles, about which sums are
     std::vector<std::size_t> pins;  ///< its particles that pins and supports hold
   };
   using Sums = std::array<double, kernel::momenta>;
@@ -75,7 +75,7 @@ class RigidReferences {
   std::vector<Part> parts_;
   std::vector<std::int32_t> id_;
   std::vector<double> mass_;          ///< in the order; empty: all alike
-  std::vector<std::uint32_t> part_;   ///< of each particle, in the order; empty: of none
+  std::vector<std::uint32_t> part_;   ///< part of each particle, in the order; empty: of none
   SharedNeighbors near_;              ///< at rest, once bonds have broken
   std::vector<std::uint32_t> piece_;  ///< label by id, once bonds have broken
   std::int64_t broken_ = 0;           ///< ends of bonds, when these were found

@@ -18,10 +18,10 @@
 namespace sinew {
 
 struct SpeedChange {
-  Points gain;                         ///< of each particle, by place, m/s
-  std::vector<std::size_t> particles;  ///< that are slowed, by place
-  Vec3 impulse = Vec3::Zero();         ///< of their bones on them, N s
-  double work = 0;                     ///< of the bones by it, J
+  Points gain;                         ///< gain in each particle's velocity, by place, m/s
+  std::vector<std::size_t> particles;  ///< particles that are slowed, by place
+  Vec3 impulse = Vec3::Zero();         ///< impulse of their bones on them, N s
+  double work = 0;                     ///< work of the bones by it, J
 };
 
 /// What makes each offender move by `radii` radii in a step that begins with these velocities and

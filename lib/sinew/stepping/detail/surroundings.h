@@ -27,7 +27,7 @@ namespace sinew {
 
 /// Contributions to the ledger, W and J.
 struct WorldSums {
-  double power = 0;  ///< of obstacles, fields and pins
+  double power = 0;  ///< power of obstacles, fields and pins
   double lost = 0;
   double contact_energy = 0, held_kinetic = 0;
   /// The lengths of forces on particles but those of supports and loads, half of those of pins, N.
@@ -78,10 +78,10 @@ class Surroundings {
   WorldSums sums() const;
   /// The lengths of the forces of loads at present, N.
   double loaded() const { return loads_.sizes(); }
-  std::vector<Reaction> reactions() const;          ///< of obstacles
+  std::vector<Reaction> reactions() const;          ///< reactions of obstacles
   std::vector<Reaction> reactions_of_pins() const;  ///< on each bone; none where no pin is on one
   std::vector<Reaction> support_reactions() const;  ///< on the body, of each
-  std::vector<Reaction> load_reactions() const;     ///< of the last probe
+  std::vector<Reaction> load_reactions() const;     ///< reactions of the last probe
   bool is_held(std::size_t k) const { return !pin_.empty() && pin_[k] != no_pin; }
 
  private:
@@ -89,7 +89,7 @@ class Surroundings {
   static constexpr std::size_t none = SIZE_MAX;
   struct Piece {
     WorldSums sums;
-    std::vector<Reaction> reactions;  ///< of obstacles
+    std::vector<Reaction> reactions;  ///< reactions of obstacles
     std::vector<Reaction> of_pins;    ///< on bones
     std::vector<Reaction> support_reactions, load_reactions;
     std::size_t on_group = none;  ///< the first obstacle that pressed a particle of a group
@@ -122,12 +122,12 @@ class Surroundings {
   bool any_, everywhere_;
   bool acts_in_space_;  ///< there is more than pins, supports, loads and muscles
   bool pins_on_bones_;
-  std::vector<std::int32_t> id_;       ///< in the kernel's order; empty without surroundings
-  std::vector<std::uint32_t> pin_;     ///< by particle in the kernel's order; empty without pins
+  std::vector<std::int32_t> id_;    ///< in the kernel's order; empty without surroundings
+  std::vector<std::uint32_t> pin_;  ///< pin by particle in the kernel's order; empty without pins
   std::vector<std::uint32_t> pinned_;  ///< particles that are held, ascending
-  std::vector<std::size_t> first_;     ///< of them in a piece; one longer than the pieces
-  std::vector<std::uint8_t> touched_;  ///< by block
-  std::vector<std::uint8_t> held_;     ///< by block: whether it has pins
+  std::vector<std::size_t> first_;     ///< first of them in a piece; one longer than the pieces
+  std::vector<std::uint8_t> touched_;  ///< one per block
+  std::vector<std::uint8_t> held_;     ///< one per block: whether it has pins
   LoadLists<Real> loads_;
   std::vector<Piece> pieces_;
   SlidingContacts sliding_;
@@ -138,7 +138,7 @@ class Surroundings {
   const Pose* pose_ = nullptr;
   const kernel::Lists* lists_ = nullptr;
   Units units_;
-  double until_middle_ = 0;  ///< of the step, s
+  double until_middle_ = 0;  ///< time until the middle of the step, s
   Points* forces_ = nullptr;
 };
 

@@ -72,7 +72,7 @@ Tangent::Tangent(const Body& body, const RestNeighbors& near, std::span<const st
 void Tangent::find_colors() {
   const std::size_t count = unknown_.size();
   std::vector<std::int32_t> color(count, -1);
-  std::vector<std::size_t> taken;  // by color: the last particle that met it
+  std::vector<std::size_t> taken;  // one per color: the last particle that met it
   for (std::size_t i = 0; i < count; ++i) {
     for (const std::uint32_t j : reached_.of(i))
       for (const std::uint32_t k : reached_.of(j))

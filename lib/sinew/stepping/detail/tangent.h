@@ -45,10 +45,10 @@ class Tangent {
  private:
   void find_colors();
 
-  double step_;               ///< of differences, m
-  NeighborLists reached_;     ///< by particle: whose forces it changes, itself included
+  double step_;               ///< size of differences, m
+  NeighborLists reached_;     ///< particles whose forces each one changes, itself included
   std::vector<double> mass_;  ///< kg
-  std::vector<std::array<std::int32_t, 3>> unknown_;  ///< by particle and axis; -1: held
+  std::vector<std::array<std::int32_t, 3>> unknown_;  ///< one per particle and axis; -1: held
   Eigen::Index unknowns_ = 0;
   std::vector<std::vector<std::uint32_t>> of_color_;  ///< particles
 };
