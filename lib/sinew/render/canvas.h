@@ -19,7 +19,7 @@ namespace sinew {
 enum class Align { left, center, right };
 
 struct TextStyle {
-  int size = 20;  ///< of the font, pixels
+  int size = 20;  ///< size of the font, pixels
   Color color = palette::ink;
   Align align = Align::left;
 };

@@ -107,7 +107,7 @@ const ColorTable& table_of(ColorMap map) {
 }  // namespace
 
 Paper paper_of(const Color& background) {
-  constexpr double middle = 0.6;  // of the lightness
+  constexpr double middle = 0.6;  // fraction of the lightness
   constexpr Color light_ink{236, 239, 243};
   return {background, oklab(background)[0] > middle ? palette::ink : light_ink};
 }

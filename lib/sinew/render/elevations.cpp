@@ -36,7 +36,7 @@ Ticks ticks_over(double low, double high, double step) {
 
 namespace {
 
-constexpr double steps_along = 6;  // of the longest side, at most
+constexpr double steps_along = 6;  // steps of the longest side, at most
 
 struct Elevation {
   Mat3 view;
@@ -148,7 +148,7 @@ void draw_axes(Canvas& page, const Elevation& elevation, const Plan& plan) {
 struct LegendEntry {
   std::string words;
   Color color;
-  double radius;  ///< of its disc, pixels
+  double radius;  ///< radius of its disc, pixels
 };
 
 std::vector<LegendEntry> legend_of(const Snapshot& snapshot, const Plan& plan) {

@@ -15,7 +15,7 @@ namespace sinew {
 /// Round numbers (1, 2 or 5 times a power of ten apart) from the last one below `low` to the first
 /// one above `high`.
 struct Ticks {
-  int mantissa = 1, exponent = 0;    ///< of the step
+  int mantissa = 1, exponent = 0;    ///< parts of the step
   std::int64_t first = 0, last = 1;  ///< in steps
 
   double at(std::int64_t tick) const;

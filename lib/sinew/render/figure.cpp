@@ -20,7 +20,7 @@ namespace {
 struct Layout {
   TextStyle words;
   int margin = 0;
-  int top = 0;             ///< of the panels
+  int top = 0;             ///< top of the panels
   int wide = 0, high = 0;  ///< each panel
   int foot = 0;            ///< top of caption and color bar
 };
@@ -87,7 +87,7 @@ Canvas figure(const std::vector<Panel>& panels, const FigureOptions& options) {
 namespace {
 
 struct Column {
-  Box frame;  ///< as wide as its snapshots, as high as all of them
+  Box frame;  ///< frame as wide as its snapshots, as high as all of them
   int x = 0, width = 0;
 };
 
@@ -164,7 +164,7 @@ bool show_values(const std::vector<SheetRow>& rows) {
 
 /// Moves the columns apart until the title has room, and with `keys` what is below them.
 void widen(SheetLayout& layout, const SheetOptions& options, bool keys) {
-  constexpr double letter = 0.52;  // of the size, the mean width
+  constexpr double letter = 0.52;  // mean width, over the size
   std::size_t longest = keys ? 80 : 0;
   std::istringstream title(options.title);
   for (std::string line; std::getline(title, line);) longest = std::max(longest, line.size());

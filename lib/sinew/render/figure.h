@@ -73,7 +73,7 @@ struct SheetOptions {
   bool axes = false;           ///< the scene's axes in the corner below the panels
   std::string title = {};      ///< above everything, or empty
   bool rulers = false;         ///< a scale bar, and a key of the bones' axes and of forces in color
-  double strongest_force = 0;  ///< that of the longest arrow of a support or a load, N
+  double strongest_force = 0;  ///< force of the longest arrow of a support or a load, N
 };
 
 /// All panels to one scale; below them the captions of the first row's snapshots and the color

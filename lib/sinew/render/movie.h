@@ -28,7 +28,7 @@ class Movie {
   Movie(const Movie&) = delete;
   Movie& operator=(const Movie&) = delete;
 
-  void add(const Image& frame);  ///< of the movie's size. Throws not written, bad input
+  void add(const Image& frame);  ///< frame of the movie's size. Throws not written, bad input
   void finish();                 ///< throws not written, with the message of ffmpeg
 
  private:

@@ -180,7 +180,7 @@ std::vector<float> blurred(const std::vector<float>& values, const DepthImage& i
   const int width = image.width, height = image.height;
   std::vector<float> means(values.size());
   parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> sums(static_cast<std::size_t>(width));  // of 4 rows
+    std::vector<float> sums(static_cast<std::size_t>(width));  // sums of 4 rows
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       std::fill(sums.begin(), sums.end(), 0.0F);
       for (int row = y - 1; row < y + 3; ++row) {

@@ -15,8 +15,8 @@ struct Shading {
   using Edge = std::array<int, 2>;
 
   std::vector<int> source;                ///< the surface's point behind each shaded point
-  std::vector<std::array<int, 3>> faces;  ///< of shaded points, which are split along creases
-  std::vector<Edge> creases;              ///< of the surface's points: sharp or open edges
+  std::vector<std::array<int, 3>> faces;  ///< corners: shaded points, which are split along creases
+  std::vector<Edge> creases;              ///< pairs of the surface's points: sharp or open edges
   std::vector<Edge> lines;                ///< its other edges, except diagonals of quadrangles
   double mean_line = 0;                   ///< mean length of these at rest, m
 

@@ -49,7 +49,7 @@ struct SnapshotCut {
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitY();  ///< m; the part toward `normal` is left out
   Points points;                                      ///< n x 3, m
   std::vector<double> values;                         ///< one per point, shown in color
-  std::vector<std::array<std::uint32_t, 4>> cells;    ///< those that the plane crosses
+  std::vector<std::array<std::uint32_t, 4>> cells;    ///< cells that the plane crosses
 };
 
 /// The path of a picked particle up to this moment.
@@ -62,7 +62,7 @@ struct SnapshotTrace {
 enum class Mark : std::uint8_t {
   none,
   held,    ///< in place, on a bone or by a support, drawn dark
-  loaded,  ///< by a force or a pressure, drawn violet
+  loaded,  ///< pushed by a force or a pressure, drawn violet
   muscle,  ///< drawn red
   sample,  ///< shown for its size
   within,  ///< other flesh, drawn orange
@@ -72,7 +72,7 @@ enum class Mark : std::uint8_t {
 struct Snapshot {
   std::string caption;              ///< below the picture, may have several lines
   Points particles;                 ///< n x 3, m
-  double radius = 0;                ///< of each particle, m
+  double radius = 0;                ///< radius of each particle, m
   std::vector<double> values;       ///< one per particle, shown in color; empty: all alike
   Triangles surface;                ///< the same faces in all snapshots of a run
   std::vector<double> skin_values;  ///< one per point of the surface, in color; empty: none
@@ -99,12 +99,12 @@ Snapshot marked(const Snapshot& snapshot, Mark mark);
 
 /// The values that colors stand for, the same for all pictures of a run.
 struct ColorScale {
-  std::string name;  ///< of the quantity, "displacement"
+  std::string name;  ///< name of the quantity, "displacement"
   std::string unit;  ///< "m", or empty for a plain number
   double low = 0, high = 1;
   ColorMap map = ColorMap::indigo;
-  std::vector<std::string> names = {};  ///< of the values 0, 1, ... up to `high`, if they have any
-  std::vector<Color> colors = {};       ///< of these values; empty: those of the map
+  std::vector<std::string> names = {};  ///< names of the values 0, 1, ... up to `high`, if any
+  std::vector<Color> colors = {};       ///< colors of these values; empty: those of the map
   std::string note = {};                ///< beside the name, as ", 1st to 99th percentile"
 
   /// Position of `value` between low and high: 0 .. 1, clamped; not-a-number of not-a-number.

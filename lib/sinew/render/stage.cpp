@@ -37,7 +37,7 @@ void light(vtkRenderer& renderer, Finish finish) {
   if (finish == Finish::quick) return add_light(renderer, {0.05, 0.35, 1.0}, 1.3, {1, 0.99, 0.98});
   add_light(renderer, {-0.35, 0.55, 1.0}, 0.84, {1.0, 0.99, 0.97});  // key
   add_light(renderer, {1.0, 0.25, 0.7}, 0.54, {0.95, 0.97, 1.0});    // fill, cool
-  add_light(renderer, {-0.2, -0.6, 1.0}, 0.24, {1.0, 0.98, 0.95});   // from below
+  add_light(renderer, {-0.2, -0.6, 1.0}, 0.24, {1.0, 0.98, 0.95});   // light from below
 }
 
 /// The box in the view's axes that fills the picture.

@@ -29,7 +29,7 @@ struct Shot {
   double pixel = 1;
   Finish finish = Finish::fine;
   Color background = palette::paper;
-  double reach = 0;  ///< of what is drawn beyond its points, such as the radius of spheres, m
+  double reach = 0;  ///< reach of what is drawn beyond its points, such as the radius of spheres, m
   int tile = 2560;  ///< rendered pixels: larger pictures are drawn in tiles, which take less memory
 };
 
@@ -51,7 +51,7 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
 
   void aim(const Shot& shot);
-  const Mat3& view() const;  ///< of the camera
+  const Mat3& view() const;  ///< axes of the camera
   /// Where something `depth` (m) deep in a pixel is, m.
   Vec3 place_at(int x, int y, double depth) const;
   /// To which actors are added.

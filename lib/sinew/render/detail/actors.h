@@ -23,7 +23,7 @@ void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& sk
               const ColorScale& scale);
 
 struct LineStyle {
-  double width = 1;  ///< of the sharp edges, in rendered pixels; the others are thinner
+  double width = 1;  ///< width of the sharp edges, in rendered pixels; the others are thinner
   double lift = 0;   ///< off the skin, m
   double pixel = 0;  ///< size of one, m: lines that are a few pixels long at rest are left out
 };

@@ -7,8 +7,8 @@
 namespace sinew {
 namespace {
 
-constexpr double cells_along = 96;       // of the body's longest side
-constexpr double softest = 0.12;         // of that side: half the width of the blur at the ground
+constexpr double cells_along = 96;  // number of cells along the body's longest side
+constexpr double softest = 0.12;  // fraction of that side: half the width of the blur at the ground
 constexpr double blur_per_height = 0.5;  // it grows with the distance from the body
 
 }  // namespace
@@ -60,7 +60,7 @@ double GroundShadow::at(const Vec3& place) const {
   if (sums_.empty() || place.z() > bottom_ + 2 * edge_) return 0;
   const double height = std::max(0.0, bottom_ - place.z());
   const double blur = softest * size_ + blur_per_height * height;
-  double darkness = 0;  // of three widths: the edge of their mean is soft
+  double darkness = 0;  // mean of three widths: its edge is soft
   for (const double part : {0.25, 0.6, 1.0})
     darkness += mean_around(place.x(), place.y(), static_cast<int>(part * blur / edge_)) / 3;
   return darkness / (1 + 2 * height / size_);

@@ -25,7 +25,7 @@ class GroundShadow {
   Vec3 low_ = Vec3::Zero();
   double edge_ = 1, bottom_ = 0, size_ = 1;
   int wide_ = 0, high_ = 0;
-  std::vector<double> sums_;  ///< of the covered cells to the lower left of each corner
+  std::vector<double> sums_;  ///< sums of the covered cells to the lower left of each corner
 };
 
 }  // namespace sinew
