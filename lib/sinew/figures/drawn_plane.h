@@ -30,7 +30,7 @@ class JointTurns {
 
   struct Turn {
     double angle = 0;           ///< rad
-    Vec3 axis = Vec3::UnitZ();  ///< as the body is at rest
+    Vec3 axis = Vec3::UnitZ();  ///< axis as the body is at rest
   };
   const std::vector<Turn>& of_bones() const { return turns_; }
 

@@ -24,7 +24,7 @@ std::string numbered(std::size_t frame) {
 }
 
 void check_times(const std::vector<double>& times, const RunFiles& run) {
-  constexpr double slack = 1e-6;  // of the run: times are typed in a few digits
+  constexpr double slack = 1e-6;  // fraction of the run: times are typed in a few digits
   const double first = run.particle_rows.front().time,
                last = run.particle_rows[run.frames() - 1].time;
   for (const double time : times)

@@ -21,14 +21,14 @@
 namespace sinew {
 
 struct FigureSetOptions {
-  std::filesystem::path folder;  ///< of the pictures
+  std::filesystem::path folder;  ///< folder of the pictures
   int width = 1280, height = 720;
   Mat3 view = three_quarter_view();
   ColorMap colors = ColorMap::indigo;
   PageFiles files;
   bool axes = false;  ///< the scene's, in a corner
-  double orbit = 0;   ///< of the camera over the movie, about the body's upright axis, rad
-  std::optional<std::array<double, 2>> range;  ///< of the colors; by default the run's own
+  double orbit = 0;   ///< turn of the camera over the movie, about the body's upright axis, rad
+  std::optional<std::array<double, 2>> range;  ///< range of the colors; by default the run's own
   std::vector<double> times;                   ///< s; empty: the run's key frames
   std::function<void()> drawn = [] {};         ///< called after each picture and frame of a movie
 };

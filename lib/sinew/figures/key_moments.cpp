@@ -10,7 +10,7 @@ namespace sinew {
 namespace {
 
 constexpr double min_turn = 0.01;       // rad: below it the bones do not move
-constexpr double returned_turn = 0.02;  // of the largest: the bones are back
+constexpr double returned_turn = 0.02;  // fraction of the largest: the bones are back
 constexpr double near_rest = 1e-3;      // radii: nothing has moved
 constexpr std::size_t moments_without_turn = 5;
 

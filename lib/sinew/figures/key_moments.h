@@ -14,7 +14,7 @@ struct RunOverview;
 
 struct KeyMoment {
   std::size_t frame = 0;
-  std::string what;  ///< as "largest bend"; empty: nothing to say
+  std::string what;  ///< words such as "largest bend"; empty: nothing to say
 };
 
 /// Rest, half the largest turn of a bone, the largest (the last such frame), and the end; evenly

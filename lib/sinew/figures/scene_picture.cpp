@@ -16,7 +16,7 @@ namespace {
 /// What a picture shows of a scene.
 struct DrawnScene {
   const Skeleton& skeleton;
-  const Points& rest;  ///< of the particles, by id
+  const Points& rest;  ///< places of the particles, by id
   double radius;
   const World* world;
   const Triangles& surface;

@@ -42,11 +42,11 @@ std::vector<SnapshotForce> arrows_of(const std::vector<ShownForce>& forces) {
   return arrows;
 }
 
-constexpr double longest_arrow = 0.25;   // of the body's longest side
-constexpr double shortest_arrow = 0.05;  // of the longest: shorter ones are dots
-constexpr double arrow_spacing = 0.03;   // of the body's longest side: closer ones hide each other
-constexpr double weakest_line = 0.1;     // of the largest stress: below it lines of stress end
-constexpr double beside_plane = 1.1;     // radii: one layer of particles
+constexpr double longest_arrow = 0.25;   // fraction of the body's longest side
+constexpr double shortest_arrow = 0.05;  // fraction of the longest: shorter ones are dots
+constexpr double arrow_spacing = 0.03;  // fraction of the longest side: closer ones hide each other
+constexpr double weakest_line = 0.1;    // fraction of the largest stress: below it the lines end
+constexpr double beside_plane = 1.1;    // radii: one layer of particles
 
 double largest_turn(const RunFiles& run, const FrameState& frame) {
   double most = 0;

@@ -38,7 +38,7 @@ struct DrawnView {
   std::optional<DrawnBonds> bonds;  ///< where the preset's view is of lines: colored instead
   std::optional<DrawnPulls> pulls;  ///< where it is of the binding
   std::shared_ptr<const DrawnVolume> volume = nullptr;  ///< where it is of the volume
-  DrawnValues::Range range = {};  ///< of what is colored or drawn as arrows, over all frames
+  DrawnValues::Range range = {};  ///< range of what is colored or drawn as arrows, over all frames
 
   /// The largest force is drawn as the longest arrow; false where all are rounding.
   bool is_pulled() const { return pulls && range.high > pulls->negligible(); }
@@ -56,17 +56,17 @@ struct RunOverview {
   Box frame;                ///< around the body at all times, in the camera's directions
   Cylinder around;          ///< the upright axis through its middle at rest, at all times
   Box obstacle_space = {};  ///< around it, m
-  std::optional<DrawnPlane> plane = {};  ///< by which views cut the body open
-  std::vector<Points> paths;             ///< of the traced particles, one point per frame, m
+  std::optional<DrawnPlane> plane = {};  ///< plane by which views cut the body open
+  std::vector<Points> paths;             ///< paths of the traced particles, one point per frame, m
 };
 
 struct DrawnRunOptions {
   std::vector<ViewPreset> presets;
   std::string array;  ///< shown in color instead of each preset's own, or empty
   Mat3 view = three_quarter_view();
-  std::vector<std::string> bones;  ///< by name: these alone are drawn; the particles of others are
-                                   ///< gray, without arrows; empty: all
-  std::vector<int> traced;         ///< ids of the particles whose paths are drawn
+  std::vector<std::string> bones;      ///< names: these alone are drawn; the particles of
+                                       ///< others are gray, without arrows; empty: all
+  std::vector<int> traced;             ///< ids of the particles whose paths are drawn
   std::optional<CutPlane> plane = {};  ///< none: through the joint that turns most
   bool follows = true;                 ///< the camera, a body that leaves the place where it began
   bool by_front = false;  ///< `view` is of a figure that looks along -y: turned to where it looks
@@ -83,7 +83,7 @@ class DrawnRun {
   const RunFiles& files() const { return run_; }
   const RunOverview& overview() const { return overview_; }
   const std::vector<DrawnView>& view_presets() const { return views_; }
-  std::string name() const;  ///< of its folder
+  std::string name() const;  ///< name of its folder
   const Mat3& view() const { return options_.view; }
 
   /// The frame nearest in time.
@@ -134,8 +134,8 @@ class DrawnRun {
   std::vector<DrawnView> views_;
   RunOverview overview_;
   std::optional<ShownForces> forces_;
-  std::vector<bool> selected_;                         ///< bones; empty: all
-  std::vector<Mark> marks_;                            ///< of the written particles; empty: none
+  std::vector<bool> selected_;  ///< bones; empty: all
+  std::vector<Mark> marks_;     ///< marks of the written particles; empty: none
   mutable std::shared_ptr<const DrawnVolume> volume_;  ///< made where it is asked for first
 };
 

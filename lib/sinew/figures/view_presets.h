@@ -37,7 +37,7 @@ Backdrop backdrop_named(const std::string& text);
 /// How pictures look as a whole.
 struct Look {
   std::string_view name, background;
-  int width = 1280, height = 720;  ///< of pictures, pixels
+  int width = 1280, height = 720;  ///< size of pictures, pixels
   double print_width = 0;          ///< mm: see PageFiles
   std::string_view help;
 };
