@@ -32,7 +32,8 @@ constexpr double max_outside = 0.5;  // elements: the corners of curved sides st
 /// The result with its nodes where the run is, relative to whose origin decks are written.
 FrdResult at_run(FrdResult result, const RunFiles& run) {
   const Vec3 origin = local_origin(bounds(run.surface.points));
-  if (!local_origin(bounds(result.mesh.nodes)).isZero(0)) return result;  // of another program
+  // Result of another program.
+  if (!local_origin(bounds(result.mesh.nodes)).isZero(0)) return result;
   for (Vec3& node : result.mesh.nodes) node += origin;
   return result;
 }
@@ -58,7 +59,7 @@ struct FrameAndStep {
 /// Frames and steps of the same time.
 std::vector<FrameAndStep> pairs_of(const RunFiles& run, const FrdResult& result,
                                    const fs::path& file) {
-  constexpr double slack = 1e-5;  // of the time, beside a millionth of a second
+  constexpr double slack = 1e-5;  // fraction of the time, beside a millionth of a second
   std::vector<FrameAndStep> pairs;
   for (std::size_t frame = 0; frame < run.frames(); ++frame)
     for (std::size_t step = 0; step < result.steps.size(); ++step) {

@@ -25,9 +25,9 @@ namespace sinew {
 struct ElementFrame {
   double time = 0;
   double largest_elements = 0, largest = 0;   ///< max |w|, max |u|, m
-  double rms = 0, max = 0;                    ///< of |u - w|, m
+  double rms = 0, max = 0;                    ///< root mean square and largest |u - w|, m
   double rms_relative = 0, max_relative = 0;  ///< over max |w|
-  double worst_particle = 0;                  ///< that is farthest off, by id
+  double worst_particle = 0;                  ///< id of the particle that is farthest off
   double von_mises_95_elements = not_measured, von_mises_95 = not_measured;  ///< Pa
 };
 
@@ -53,11 +53,11 @@ struct ComparedSupport {
 };
 
 struct ElementComparison {
-  std::string name;  ///< of the result's file
+  std::string name;  ///< name of the result's file
   std::size_t elements = 0, nodes = 0, particles = 0;
   std::vector<ElementFrame> frames;
   std::vector<ComparedProbe> probes;
-  std::vector<ComparedSupport> supports;  ///< those whose part elements have
+  std::vector<ComparedSupport> supports;  ///< supports whose part elements have
   RunComparison metrics;  ///< first: the run's body, moved by the elements; second: the run
 };
 

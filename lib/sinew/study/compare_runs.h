@@ -19,7 +19,7 @@ namespace sinew {
 /// A setting in which the scenes of runs differ.
 struct DifferingSetting {
   std::string_view section, name;
-  std::vector<std::string> values;  ///< by scene, as scene files write them
+  std::vector<std::string> values;  ///< values by scene, as scene files write them
 };
 
 /// In the order of the table of settings; lists (tracks, supports, ...) are not compared.

@@ -11,7 +11,7 @@
 namespace sinew {
 namespace {
 
-constexpr double clearly_better = 5;          // of a parabola, by the spread about one term
+constexpr double clearly_better = 5;          // spread about one term over a parabola's
 constexpr std::size_t to_weigh_parabola = 6;  // sizes: what Akaike's correction needs, and one
 constexpr double outweighing = 0.95;
 
@@ -31,7 +31,7 @@ std::vector<Sample> ascending(std::span<const double> sizes, std::span<const dou
 struct SizeFit {
   double at_zero;
   double spread;          ///< standard deviation of the residuals; 0 where it meets all values
-  double standard_error;  ///< of at_zero
+  double standard_error;  ///< standard error of at_zero
   Eigen::Index free;      ///< values beyond those that it needs
 };
 

@@ -15,7 +15,7 @@ namespace sinew {
 /// Not-a-number throughout where a value is, or with fewer than two sizes.
 struct ContinuumLimit {
   double value = not_measured;  ///< at size 0
-  double error = not_measured;  ///< of it: an estimate, not a bound
+  double error = not_measured;  ///< error of it: an estimate, not a bound
   /// Values differ from the limit by size^order; of a parabola, by the three smallest sizes.
   /// Not-a-number where the values tell none.
   double order = not_measured;

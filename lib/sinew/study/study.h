@@ -19,11 +19,11 @@ namespace sinew {
 
 struct StudiedRun {
   std::string name;
-  double radius = 0;  ///< of a particle, m
+  double radius = 0;  ///< radius of a particle, m
   std::size_t particles = 0;
-  double seconds = not_measured;       ///< that stepping took
+  double seconds = not_measured;       ///< time that stepping took, s
   std::vector<FrameMetrics> frames;    ///< at the times that all runs have
-  std::vector<MachineColumn> machine;  ///< of supports, loads and probes at those times
+  std::vector<MachineColumn> machine;  ///< columns of supports, loads and probes at those times
 };
 
 /// One number of each run.
@@ -31,7 +31,7 @@ struct StudiedResult {
   std::string name;  ///< a metric, or "grip: force_z"
   std::string kind;  ///< "final" and "worst" over the frames, "largest" in size; "run" of all of it
   std::string unit;
-  std::vector<double> values;  ///< by run
+  std::vector<double> values;  ///< one per run
   ContinuumLimit limit;        ///< nothing unless Study::by_radius
 };
 

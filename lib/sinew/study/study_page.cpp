@@ -16,7 +16,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t max_curves = 30;  // of results over the radius
+constexpr std::size_t max_curves = 30;  // number of curves over the radius
 // Fraction of the largest result of its unit: less is zero but for rounding and sides of the
 // packing.
 constexpr double telling = 1e-3;
@@ -87,7 +87,7 @@ LawCurve curve_of(const Study& study, const StudiedResult& result) {
 
 std::vector<LawCurve> curves_of(const Study& study) {
   const bool machine = !study.runs.front().machine.empty();
-  std::map<std::string, double> largest;  // by unit
+  std::map<std::string, double> largest;  // one per unit
   const auto size_of = [](const StudiedResult& result) { return std::abs(result.values.back()); };
   const auto drawn = [&](const StudiedResult& result) {
     return has_limit(result) && is_headline(result, machine) && spread_of(result) > 0;
