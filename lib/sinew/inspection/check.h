@@ -18,7 +18,7 @@ struct SceneCheck {
   Findings findings;
   std::vector<std::string> warnings;  ///< each with its cure
   std::vector<Intrusion> meeting;     ///< flesh that the motion drives into other flesh
-  std::vector<Points> shapes;         ///< of the modes that were found, by particle id
+  std::vector<Points> shapes;         ///< shapes of the modes that were found, by particle id
 };
 
 /// Steps the body for up to a second or so to measure speed. `folder`: where the run will be;

@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int min_samples = 200;  // of a clip, for its largest speed
+constexpr int min_samples = 200;  // samples of a clip, for its largest speed
 
 /// s before a clip moves.
 double wait_of(const Clip& clip) {
@@ -121,7 +121,7 @@ Clip clip_of(Motion motion, std::string name, std::optional<double> frame_rate) 
 void add_rig_alone_info(const Settings& settings, const std::string& name,
                         std::optional<double> radius, Findings& results) {
   if (!settings.bones.empty()) return add_rig_info({skeleton_of(settings), {}}, radius, results);
-  Skeleton named;  // of the bones that a clip moves
+  Skeleton named;  // skeleton of the bones that a clip moves
   Json moves = Json::array();
   for (const TrackDefinition& track : settings.tracks) {
     if (std::find(moves.begin(), moves.end(), track.bone) != moves.end()) continue;

@@ -17,8 +17,8 @@ namespace sinew {
 
 struct InfoOptions {
   std::string path;
-  std::vector<Override> overrides = {};  ///< of a scene, or of the section body of a mesh
-  std::optional<double> radius = {};     ///< of particles, m: find how fast a rig moves them
+  std::vector<Override> overrides = {};  ///< settings of a scene, or of the section body of a mesh
+  std::optional<double> radius = {};     ///< radius of particles, m: find how fast a rig moves them
   bool verify = false;                   ///< compare the files of a run with their checksums
   std::string drawing = {};              ///< the mesh with its defects is written there; "": not
 };
@@ -26,7 +26,7 @@ struct InfoOptions {
 struct Info {
   Findings findings;
   std::vector<std::string> warnings = {};
-  std::optional<Error> damage = {};  ///< of a run that was verified
+  std::optional<Error> damage = {};  ///< damage of a run that was verified
 };
 
 /// Throws bad input, naming the file, for what cannot be read, and not written.
