@@ -74,9 +74,9 @@ class FixSinew : public LAMMPS_NS::Fix {
   double step_ = 0;
   EngineMoment moment_;
   EnergyLedger ledger_{0};
-  double power_ = 0, damping_power_ = 0;  ///< of the bones on own particles, W
+  double power_ = 0, damping_power_ = 0;  ///< power of the bones on own particles, W
   std::optional<EngineWorld> around_;
-  std::vector<ParticleWorld> on_;  ///< by local index
+  std::vector<ParticleWorld> on_;  ///< one per local index
   Points load_;
   EnergyLedger world_ledger_{0};
   Points kicked_;  ///< velocities after the step

@@ -17,8 +17,8 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t created_at_once = 1 << 16;
-constexpr double skin = 0.6;       // of neighbor lists, in radii
-constexpr double bond_growth = 2;  // of the longest bond until it is measured
+constexpr double skin = 0.6;       // skin of neighbor lists, in radii
+constexpr double bond_growth = 2;  // multiple of the longest bond until it is measured
 // LAMMPS refuses boxes much thinner than the range of forces. That of a thin body never shrinks.
 constexpr double thin = 12;  // in radii
 constexpr std::size_t max_unread = 3;
@@ -162,7 +162,7 @@ class LammpsRun {
   }
 
   void run(std::int64_t steps) {
-    lammps_.timer->reset_timeout();  // by which interruptions end a run
+    lammps_.timer->reset_timeout();  // interruptions end a run by it
     order("run " + std::to_string(steps));
   }
 

@@ -30,7 +30,7 @@ class Ranks {
 
 struct LammpsTalk {
   std::function<Interruption()> interruption;          ///< asked by every rank in every step
-  std::function<void(const EngineStatus&)> news = {};  ///< from rank 0
+  std::function<void(const EngineStatus&)> news = {};  ///< called on rank 0
 };
 
 /// Steps the run in the folder to its end and writes a state at every frame, and where a step is

@@ -19,13 +19,13 @@ struct LocalBody {
   explicit LocalBody(EngineSetup given) : setup(std::move(given)), width(setup.shape.size()) {}
 
   EngineSetup setup;
-  std::size_t width;         ///< of a row
-  std::vector<double> rows;  ///< by local index
+  std::size_t width;         ///< width of a row
+  std::vector<double> rows;  ///< one row per local index
   Points pair, damping;      ///< on own particles, N
   Points bone, bone_damping;
   Points world;                   ///< empty without one
   std::vector<double> neighbors;  ///< how many, of ghosts too where damping is pairwise
-  double longest_bond = 0;        ///< of own particles, m
+  double longest_bond = 0;        ///< longest bond of own particles, m
 
   double* numbers(int i) { return rows.data() + static_cast<std::size_t>(i) * width; }
   ParticleRow row(int i) const {

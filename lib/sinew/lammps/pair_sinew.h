@@ -30,7 +30,7 @@ class PairSinew : public LAMMPS_NS::Pair {
  private:
   struct Meeting {
     int i, j;       ///< local indices; i is own
-    Vec3 offset;    ///< from j to i, m
+    Vec3 offset;    ///< vector from j to i, m
     double d;       ///< m
     double force;   ///< N, positive repels
     bool of_both;   ///< j has to hear of it as well
@@ -64,12 +64,12 @@ class PairSinew : public LAMMPS_NS::Pair {
 
   LocalBody* body_ = nullptr;
   const ForceLaw* law_ = nullptr;
-  double range_ = 0;           ///< of forces between particles that are not bonded, m
-  std::vector<int> partners_;  ///< of the bonds of own particles, local indices
-  Sent sent_ = Sent::counts;   ///< from particles to their ghosts
+  double range_ = 0;           ///< range of forces between particles that are not bonded, m
+  std::vector<int> partners_;  ///< partners in the bonds of own particles, local indices
+  Sent sent_ = Sent::counts;   ///< what particles send to their ghosts
   // Where volumes are kept:
-  Points rest_;                 ///< of ghosts as well, m
-  std::vector<Mat3> inverse_;   ///< of A_i, 1/m^2
+  Points rest_;                 ///< places of ghosts as well, m
+  std::vector<Mat3> inverse_;   ///< inverses of A_i, 1/m^2
   std::vector<double> weight_;  ///< w_i
   std::vector<Mat3> thrust_;    ///< K_v V0 w_i (J_i - 1) cof(F_i) A_i^-1, of ghosts as well, N/m
 };
