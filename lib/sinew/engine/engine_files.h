@@ -49,11 +49,11 @@ struct EngineFolder {
 
 /// Frames in whose files each rank writes its part of the particles, as a piece.
 struct EnginePieces {
-  std::string folder;  ///< of the run
+  std::string folder;  ///< folder of the run
   Encoding encoding = Encoding::zlib;
   bool double_precision = false;
   std::vector<std::string> arrays;  ///< empty: all
-  std::int32_t every = 1;           ///< of so many frames, one is written
+  std::int32_t every = 1;           ///< number of frames of which one is written
 };
 
 /// A moment of a run, without its particles.
@@ -75,7 +75,7 @@ struct EngineSetup {
   std::vector<BoneSprings> springs;
   Stepping stepping;  ///< with the whole step of the plan
   int steps_per_frame = 0, frames = 0;
-  std::vector<int> parts;  ///< of each frame's steps, see StepPlan
+  std::vector<int> parts;  ///< parts of each frame's steps, see StepPlan
   std::optional<WholeSteps> last;
   EngineMoment start;
   bool with_forces = false;
@@ -92,9 +92,9 @@ struct EngineRun {
   const Stepping& stepping;
   const StepPlan& plan;
   int steps_per_frame, frames;
-  double mass;                        ///< of a particle, kg
+  double mass;                        ///< mass of a particle, kg
   const SimulationState& state;       ///< where it begins, in double precision
-  std::span<const std::int32_t> ids;  ///< of the particles in the caller's order
+  std::span<const std::int32_t> ids;  ///< ids of the particles in the caller's order
   bool with_forces = false;
   std::optional<EnginePieces> pieces = {};  ///< none: frames are written by whoever reads states
 };

@@ -53,7 +53,7 @@ class EngineWorld {
   std::filesystem::path file_;
   const World& world_;
   std::int64_t first_, read_ = 0;  ///< step of the file's beginning, and of poses_
-  std::vector<double> poses_;      ///< of some steps
+  std::vector<double> poses_;      ///< poses of some steps
   WorldNow now_;
 };
 
