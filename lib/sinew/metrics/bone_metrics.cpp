@@ -54,7 +54,7 @@ struct Miss {
   double twist = not_measured;  ///< rad; not for a particle on the axis
 };
 
-constexpr double near_axis = 1e-9;  // of l0: closer to the axis a particle has no angle about it
+constexpr double near_axis = 1e-9;  // fraction of l0: particles nearer the axis have no angle
 
 Miss miss_of(const RestBody& rest, const FrameState& state, const Bound& bound) {
   const RigidFrame& before = rest.bones[bound.bone].rest;
@@ -89,7 +89,7 @@ struct LimbMoments {
 struct Misses {
   LimbMoments limb;
   Statistics slip, joint, far, radial, twist, pose;
-  Statistics volume_joint, volume_far;  ///< of J
+  Statistics volume_joint, volume_far;  ///< volume ratios J
   std::vector<double> slips;
 };
 

@@ -19,9 +19,9 @@ namespace sinew {
 
 struct ComparedRun {
   std::string name;
-  std::vector<FrameMetrics> frames;  ///< at the times that both have, one at least
-  Summary summary;                   ///< of all its frames
-  double radius = 0;                 ///< of a particle, m
+  std::vector<FrameMetrics> frames;  ///< frames at the times that both have, one at least
+  Summary summary;                   ///< summary of all its frames
+  double radius = 0;                 ///< radius of a particle, m
   std::size_t particles = 0;
 };
 
@@ -29,8 +29,8 @@ struct RunComparison {
   ComparedRun first, second;
   /// A metric of the second run minus that of the first; distances to the first unchanged.
   std::vector<FrameMetrics> differences;
-  Summary summary;                     ///< of the differences; run metrics are differences too
-  std::vector<Check> checks;           ///< of the differences
+  Summary summary;            ///< summary of the differences; run metrics are differences too
+  std::vector<Check> checks;  ///< checks of the differences
   std::optional<double> speedup = {};  ///< time of the first run's steps over that of the second's
   std::vector<std::string> remarks = {};  ///< sentences on what could not be compared, and why
 };

@@ -10,7 +10,7 @@
 namespace sinew {
 namespace {
 
-constexpr double within = 1e-6;  // of an element: nothing is nearer
+constexpr double within = 1e-6;  // fraction of an element: nothing is nearer
 constexpr int max_iterations = 30;
 constexpr double farthest = 4;  // local coordinates: beyond, Newton's method is lost
 

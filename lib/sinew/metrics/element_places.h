@@ -16,7 +16,7 @@ namespace sinew {
 
 struct ElementPlace {
   std::uint32_t element = 0;
-  std::array<double, max_element_nodes> weight = {};  ///< of its nodes; they sum to 1
+  std::array<double, max_element_nodes> weight = {};  ///< weights of its nodes; they sum to 1
   /// How far outside of the mesh, over the size of the nearest element; infinite: farther than one.
   double outside = std::numeric_limits<double>::infinity();
 };

@@ -18,18 +18,18 @@ struct FrameState {
   double time = 0;                ///< s
   Points positions, velocities;   ///< n x 3, m and m/s
   Points surface_points;          ///< in the order of the surface at rest, m
-  std::vector<RigidFrame> bones;  ///< of each bone
+  std::vector<RigidFrame> bones;  ///< one per bone
   Energies energies;
   std::vector<double> bone_lengths;             ///< head to tail, m; empty: as at rest
-  std::vector<std::int32_t> broken_bonds = {};  ///< of each particle; empty: it has no bonds
+  std::vector<std::int32_t> broken_bonds = {};  ///< one per particle; empty: it has no bonds
   /// Rest lengths of the bonds as they are now, m, 0 once broken: by entry of
   /// RestBody::shape.neighbors, then of second. Empty: as at rest, or not known.
   std::vector<double> bond_rest = {};
-  std::vector<Mat3> muscle_stress = {};  ///< of each particle, Pa; empty: none, or not known
-  std::vector<double> von_mises = {};    ///< of each, Pa, as the run has written it; or empty
-  std::vector<std::int32_t> group = {};  ///< of each, -1: free; empty: there are none
-  Points world_force =
-      {};  ///< of pins, supports, loads, obstacles and the like on each, N; or empty
+  std::vector<Mat3> muscle_stress = {};  ///< one per particle, Pa; empty: none, or not known
+  std::vector<double> von_mises = {};    ///< one per particle, Pa, as the run wrote it; or empty
+  std::vector<std::int32_t> group = {};  ///< one per particle, -1: free; empty: there are none
+  /// Force of pins, supports, loads, obstacles and the like on each, N; or empty.
+  Points world_force = {};
   Unbalanced unbalanced = {};
 };
 

@@ -137,7 +137,7 @@ bool is_disturbed(const RestBody& rest, const Points& force, double negligible, 
 void add_largest_stress(FrameMetrics& out, const RestBody& rest, const FrameState& state,
                         const std::vector<double>& all) {
   if (all.empty()) return;
-  constexpr double rounding = 1e-6;  // of the largest force
+  constexpr double rounding = 1e-6;  // fraction of the largest force
   double largest = 0;
   for (const Vec3& force : state.world_force) largest = std::max(largest, force.norm());
   out.von_mises_left_out = 0;

@@ -39,9 +39,9 @@ Limit parse_limit(std::string_view expression);
 struct Check {
   std::string name;             ///< the metric's
   std::string expression;       ///< the limit in its normal form
-  double value = not_measured;  ///< that was compared: of any_frame the one nearest to failing
+  double value = not_measured;  ///< value compared: of any_frame the one nearest to failing
   double limit = 0;
-  std::optional<std::size_t> frame;  ///< of the value, if it belongs to one
+  std::optional<std::size_t> frame;  ///< frame of the value, if it belongs to one
   bool pass = false;                 ///< the limit was kept; false where nothing was measured
 };
 

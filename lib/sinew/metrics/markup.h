@@ -27,7 +27,7 @@ std::string element(std::string_view tag, const std::string& content,
                     std::string_view attributes = {});
 
 struct Cell {
-  std::string_view label;  ///< of its column
+  std::string_view label;  ///< label of its column
   std::string text;        ///< plain
 };
 

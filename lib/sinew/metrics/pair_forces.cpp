@@ -20,7 +20,7 @@ constexpr std::size_t particles_per_task = 1024;
 /// A bond seen from one of its particles.
 struct BondState {
   std::uint32_t neighbor;
-  Vec3 apart;     ///< from it, m
+  Vec3 apart;     ///< vector from it, m
   double length;  ///< m
   double rest;    ///< its rest length, m
   bool whole, nearest;

@@ -144,7 +144,7 @@ std::vector<double> volume_shares_by_stiffness(const RestBody& body,
   const double r = body.radius();
   const double inside = 12 * k * 4 * r * r + 6 * second * 8 * r * r;
   const std::vector<double>& modulus = body.forces.stiffness;
-  const auto modulus_between = [&](std::size_t i, std::size_t j) {  // as of springs in series
+  const auto modulus_between = [&](std::size_t i, std::size_t j) {  // modulus of springs in series
     return modulus.empty() ? 1 : 2 / (1 / modulus[i] + 1 / modulus[j]);
   };
   std::vector<double> volume_shares(body.particles(), 0);

@@ -37,7 +37,7 @@ struct RestForces {
   /// Factors on bonds near the surface and weights of volumes; none: found where forces are asked
   /// for first, which may take seconds, from the three below.
   std::shared_ptr<const BondFactors> factors = {};
-  // Values per particle; each may be empty.
+  // One value per particle; each may be empty.
   std::vector<double> stiffness = {};         ///< modulus of its material over the body's
   std::vector<double> volume_share = {};      ///< volume around it over that of one inside
   std::vector<double> volume_stiffness = {};  ///< K_v, Pa; empty: the material's
@@ -46,7 +46,7 @@ struct RestForces {
 
 /// Input: the body at rest and its constants. Particles are in the written order.
 struct RestInput {
-  Points positions;  ///< of the n particles at rest, m
+  Points positions;  ///< positions of the n particles at rest, m
   /// Neighbors there, with second ones where the material has bonds to them; none: searched.
   SharedNeighbors neighbors = {};
   Triangles surface;                  ///< the body's skin at rest, outside out
@@ -56,7 +56,7 @@ struct RestInput {
   Skeleton skeleton;
   Material material;
   RestForces forces = {};
-  Energies start;                    ///< of the first frame, from which the energy balance is taken
+  Energies start;  ///< energies of the first frame, from which the energy balance is taken
   std::vector<double> density = {};  ///< n; factors on the mass; or empty
   /// n; as surface_layers() of the whole body, of which these are a part; empty: they are all of
   /// it.
@@ -74,7 +74,7 @@ struct Bound {
   std::uint32_t particle = 0;
   int bone = 0;
   Vec3 foot = Vec3::Zero();  ///< the nearest point of the bone's segment at rest, m
-  double distance = 0;       ///< from it, l0, m
+  double distance = 0;       ///< distance from it, l0, m
   bool far = true;           ///< the foot lies outside every joint zone
 };
 
@@ -83,18 +83,18 @@ struct BondStiffness {
   // Values of each bond, by entry of RestBody::shape.neighbors, then of second.
   std::vector<double> factor;         ///< on its force; empty: 1
   std::vector<double> length;         ///< at rest, m; empty: there are none, or they change
-  std::vector<double> volume_weight;  ///< by particle; empty: none keeps its volume
+  std::vector<double> volume_weight;  ///< one per particle; empty: none keeps its volume
   /// n; the volume whose stiffness each particle's bonds have, over that of one inside; empty: 1.
   std::vector<double> volume_share;
 };
 
 struct RestBody {
   RestShape shape;       ///< neighbors: pairs closer than 2.2 r
-  NeighborLists second;  ///< those that have bonds as well; empty: there are none
+  NeighborLists second;  ///< pairs that have bonds as well; empty: there are none
   Triangles surface;
   std::optional<FineSkin> fine;
   double volume = 0;  ///< enclosed by the surface, m^3; not above 0 for a sheet
-  double area = 0;    ///< of the surface, m^2
+  double area = 0;    ///< area of the surface, m^2
   std::vector<Bone> bones;
   std::vector<Bound> bound;
   std::vector<int> bone_of;         ///< n; -1 for none
@@ -109,7 +109,7 @@ struct RestBody {
 
   /// In time for the first caller of several threads.
   const BondStiffness& stiffness() const;
-  double radius() const { return material.pair.r; }             ///< of a particle, m
+  double radius() const { return material.pair.r; }             ///< radius of a particle, m
   double interaction_range() const { return material.pair.b; }  ///< m
   double mass_of(std::size_t i) const {
     return density.empty() ? material.mass : material.mass * density[i];

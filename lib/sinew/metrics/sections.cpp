@@ -112,7 +112,7 @@ bool surrounds(const Ring& ring, const Points& points, const Vec3& center, const
 }
 
 std::optional<Section> section_at(const Triangles& surface, const Bone& bone, const Vec3& center) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // of a coordinate
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // error of a coordinate
   std::vector<double> height(surface.points.size());
   for (std::size_t i = 0; i < height.size(); ++i) {
     const Vec3& point = surface.points[i];

@@ -12,7 +12,7 @@ namespace sinew {
 namespace {
 
 constexpr double same_direction = 1e-6;  // sine of the angle up to which axes count as parallel
-constexpr double same_line = 1e-3;  // of the bone's length: largest offset of heads from the line
+constexpr double same_line = 1e-3;  // largest offset of heads from the line, over the bone's length
 constexpr double in_a_line = 1e-6;  // ratio of spreads below which a slice has no rotation
 constexpr std::size_t fewest_of_slice = 4;  // particles of a slice
 

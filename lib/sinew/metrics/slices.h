@@ -19,11 +19,11 @@ namespace sinew {
 
 struct Slice {
   std::vector<std::uint32_t> particles;
-  Vec3 axis = Vec3::Zero();  ///< of the bones it lies across, at rest
+  Vec3 axis = Vec3::Zero();  ///< axis of the bones it lies across, at rest
 };
 
 struct Slices {
-  std::vector<Slice> all;  ///< those whose turn is defined: four particles or more, not in one line
+  std::vector<Slice> all;  ///< slices whose turn is defined: four particles or more, not in line
   std::vector<std::array<int, 2>> neighbors;  ///< pairs in `all` that follow each other
   Slice tip;  ///< the last two half-planes of the last bone; empty where their turn is not defined
 };

@@ -23,9 +23,9 @@ namespace sinew {
 struct MetricSummary {
   double min = not_measured, max = not_measured, mean = not_measured;
   double final = not_measured;  ///< in the last frame
-  std::optional<std::size_t>
-      worst_frame;  ///< the first with the worst value; Metric::worse says which
-  std::optional<std::size_t> worst_particle;  ///< that has it, in the written order
+  /// First frame with the worst value; Metric::worse says which that is.
+  std::optional<std::size_t> worst_frame;
+  std::optional<std::size_t> worst_particle;  ///< particle that has it, in the written order
 };
 
 /// A time in which no bone moves.

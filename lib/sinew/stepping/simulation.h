@@ -24,7 +24,7 @@ struct LimitedSpeeds {
   std::vector<std::int32_t> in_frame = {};  ///< times of each, by place; empty: none
   std::int64_t times = 0;                   ///< since the start
   double energy = 0;                        ///< lost since then, J; part of the dissipation
-  Vec3 impulse = Vec3::Zero();              ///< of their bones on them since then, N s
+  Vec3 impulse = Vec3::Zero();              ///< impulse of their bones on them since then, N s
 
   /// Whether it may be of a body of so many particles.
   bool is_of(std::size_t particles) const {

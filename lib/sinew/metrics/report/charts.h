@@ -46,11 +46,11 @@ struct Line {
 struct Chart {
   std::string title, note, unit;
   std::vector<double> baselines = {0};
-  double span = 0;  ///< of the scale, at least
+  double span = 0;  ///< least span of the scale
   Drawn drawn = Drawn::always;
   std::vector<Line> lines = {};
   Topic topic = Topic::motion;
-  std::vector<double> times = {};  ///< of the values, s; empty: those of the frames
+  std::vector<double> times = {};  ///< times of the values, s; empty: those of the frames
 };
 
 /// Largest change of any line of a chart, from its smallest to its largest value.

@@ -23,10 +23,10 @@ Playback side_by_side(const Playback& first, const Playback& second,
 
 /// Texts are plain; the page escapes them.
 struct ComparisonInput {
-  std::string version;  ///< of sinew
+  std::string version;  ///< version of sinew
   RunComparison comparison;
-  Playback playback;                      ///< of both, see side_by_side(); of no frames: no 3D view
-  std::vector<FactGroup> facts;           ///< what differs between the scenes
+  Playback playback;             ///< playback of both, see side_by_side(); no frames: no 3D view
+  std::vector<FactGroup> facts;  ///< what differs between the scenes
   std::string first_scene, second_scene;  ///< resolved
   std::vector<Chart> charts = {};         ///< before those of the metrics
   std::vector<LawCurve> curves = {};      ///< loads over displacements

@@ -22,14 +22,14 @@ namespace sinew {
 
 struct WorstFrame {
   std::string_view metric;
-  std::size_t frame = 0;  ///< of the run
+  std::size_t frame = 0;  ///< frame of the run
   double time = 0;        ///< s
 };
 
 /// The data that the page draws, besides the playback.
 struct PageData {
-  std::vector<double> times;   ///< of the charts' frames, ascending, s
-  std::vector<double> angles;  ///< of the bones in them, degrees
+  std::vector<double> times;   ///< times of the charts' frames, ascending, s
+  std::vector<double> angles;  ///< angles of the bones in them, degrees
   std::vector<Chart> charts;
   std::vector<LawCurve> curves;
   std::vector<WorstFrame> worst;
@@ -54,7 +54,7 @@ struct Page {
   std::string body;            ///< markup
   std::string table;           ///< the file with the numbers of every frame: metrics.csv
   PageData data;
-  const Playback& playback;  ///< of no frames: the page has no 3D view
+  const Playback& playback;  ///< playback; without frames the page has no 3D view
   /// A sentence on where its numbers are; empty: frame by frame in `table`, and in metrics.json.
   std::string sources = {};
 };
@@ -100,6 +100,6 @@ std::string_view page_script();
 std::string_view view_markup();    ///< the 3D view and its controls
 std::string_view chart_library();  ///< Chart.js
 std::string_view scene_library();  ///< three.js and its orbit controls
-std::string_view licenses();       ///< of the libraries, plain text
+std::string_view licenses();       ///< texts of the libraries, plain
 
 }  // namespace sinew

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t particle_bytes = 3'800'000, surface_bytes = 1'200'000;
 constexpr std::size_t extra_frames = 8;          // in addition to the planned ones
 constexpr std::size_t max_frames = 120;          // four seconds at 30 per second
-constexpr std::size_t fewest_particles = 6'000;  // as few as still resemble a body
+constexpr std::size_t fewest_particles = 6'000;  // particles that still resemble a body
 
 /// A hash for each particle, for selecting among them (splitmix64).
 std::uint64_t mixed(std::uint64_t i) {

@@ -30,12 +30,12 @@ struct PlaybackField {
 std::span<const PlaybackField> playback_fields();
 
 struct PlaybackFrame {
-  std::size_t frame = 0;                   ///< of the run
+  std::size_t frame = 0;                   ///< frame of the run
   double time = 0;                         ///< s
   std::vector<float> particles, surface;   ///< x y z each, m, from the playback's origin, as below
   std::vector<float> bones;                ///< head and tail, x y z each, m
   std::vector<std::vector<float>> values;  ///< one per particle and field; empty: not measured
-  std::vector<float> forces = {};          ///< of supports and loads: both ends of arrows, m
+  std::vector<float> forces = {};          ///< arrows of supports and loads: both ends, m
   std::vector<float> obstacles = {};       ///< three corners of each triangle, x y z each, m
 };
 
@@ -47,23 +47,23 @@ struct Balls {
 };
 
 struct Playback {
-  Vec3 origin = Vec3::Zero();  ///< of the places in its frames, m: near the body
+  Vec3 origin = Vec3::Zero();  ///< origin of the places in its frames, m: near the body
   std::size_t run_frames = 0, run_particles = 0, run_points = 0;  ///< before thinning
   std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
-  std::vector<std::uint32_t> particles;                           ///< of the run, ascending
-  std::vector<Balls> balls;                                       ///< the particles, in their order
-  std::vector<int> bone;           ///< that each of them follows, -1 for none
-  std::vector<int> material = {};  ///< of each of them, a number of a name; empty: unknown
+  std::vector<std::uint32_t> particles;  ///< particles of the run, ascending
+  std::vector<Balls> balls;              ///< the particles, in their order
+  std::vector<int> bone;                 ///< bone that each of them follows, -1 for none
+  std::vector<int> material = {};        ///< number of each one's name; empty: unknown
   std::vector<std::string> material_names = {};
-  std::vector<int> mark = {};  ///< of each of them, a number of a name; empty: nothing is marked
+  std::vector<int> mark = {};  ///< number of each one's name; empty: nothing is marked
   std::vector<std::string> mark_names = {};
   Vec3 front = Vec3::Zero();  ///< where a figure looks, horizontal, of length 1; zero: not known
   std::vector<std::uint32_t> held = {};   ///< indices of those that are held, into `particles`
-  std::vector<std::uint32_t> points;      ///< of the run's surface, ascending
+  std::vector<std::uint32_t> points;      ///< points of the run's surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points
   std::vector<std::string> bone_names;
   std::vector<int> bone_color;     ///< number of the color of each: of two runs, that of its name
-  std::vector<bool> is_load = {};  ///< of each force in the frames; else of a support
+  std::vector<bool> is_load = {};  ///< one per force in the frames; false: of a support
   std::vector<PlaybackFrame> frames;
 
   bool wants(std::size_t frame) const;
@@ -76,7 +76,7 @@ Box box_of(const Playback& playback);
 /// A coarser skin on a subset of a surface's points, by vertex clustering (Rossignac and Borrel):
 /// one point is kept in each cell of a grid.
 struct ThinSurface {
-  std::vector<std::uint32_t> points;      ///< of the surface, ascending
+  std::vector<std::uint32_t> points;      ///< points of the surface, ascending
   std::vector<std::array<int, 3>> faces;  ///< indices into points
 };
 

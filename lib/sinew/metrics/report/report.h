@@ -60,19 +60,19 @@ struct RunEnd {
 struct ReportInput {
   std::string title;    ///< the scene's name
   std::string subject;  ///< what was run, in a sentence
-  std::string version;  ///< of sinew
-  double radius = 0;    ///< of a particle, m
+  std::string version;  ///< version of sinew
+  double radius = 0;    ///< radius of a particle, m
   double modulus = 0;   ///< Young's, Pa; 0: not known
   std::size_t particles = 0;
   RunEnd end;
   std::vector<FactGroup> facts;
   std::vector<FrameMetrics> frames;  ///< one at least
-  Summary summary;                   ///< of these frames
+  Summary summary;                   ///< summary of these frames
   std::vector<Check> checks;
   std::vector<LawCurve> curves;
   std::vector<Chart> charts;           ///< more of them: of bones, supports, loads and probes
   std::vector<MachineColumn> machine;  ///< all of the same length; the page offers any two of them
-  Playback playback;                   ///< of no frames: the page has no 3D view
+  Playback playback;                   ///< playback; without frames the page has no 3D view
   std::vector<Picture> pictures;
   std::string movie;       ///< relative to the report, or empty
   std::string scene_text;  ///< the resolved scene
