@@ -4,8 +4,8 @@
 //     const sinew::Settings scene = sinew::read_scene("configs/box_bend.yaml");
 //     sinew::simulate(scene, {"out/box_bend"});
 //
-// Link with sinew::sinew. The headers that are included here are promised; others are inner, and may
-// change with any version. Each can be included by itself; lib/README.md lists the rooms.
+// Link with sinew::sinew. The headers that are included here are promised; others are inner, and
+// may change with any version. Each can be included by itself; lib/README.md lists the rooms.
 #pragma once
 
 #include <sinew/core/error.h>
