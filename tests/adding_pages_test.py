@@ -11,7 +11,7 @@ from pathlib import Path
 
 SUFFIXES = (".h", ".cpp", ".py", ".pyi", ".fish", ".bash", "")
 EXAMPLE = re.compile(r"One that is there: ((?:`[^`]+`(?:, )?)+)")
-WITH_EXAMPLE = 8  # lists
+WITH_EXAMPLE = 9  # lists
 
 
 def sections(page):
