@@ -73,8 +73,7 @@ std::vector<std::int32_t> vertex_cells(std::size_t points);
 /// The column of that name, or nullptr.
 const Column* find(const std::vector<Column>& columns, std::string_view name);
 
-/// Typed access; throws Error (bad input) that names the column when it is missing or of another
-/// shape.
+/// Typed access. Throws bad input, naming the column, where it is missing or of another shape.
 const std::vector<std::int32_t>& integers(const std::vector<Column>& columns,
                                           std::string_view name);
 const std::vector<double>& numbers(const std::vector<Column>& columns, std::string_view name);

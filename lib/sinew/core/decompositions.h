@@ -23,8 +23,7 @@ PrincipalAxes principal_axes(const Mat3& symmetric);
 /// The values of principal_axes alone, bit for bit.
 Vec3 eigenvalues(const Mat3& symmetric);
 
-/// The same by a closed form: faster, but where two are equal exact to the root of the precision
-/// only.
+/// The same by a closed form: faster, exact to the root of the precision where two are equal.
 Vec3 eigenvalues_in_closed_form(const Mat3& symmetric);
 
 /// The symmetric matrix whose square is the inverse; all eigenvalues must be positive.
@@ -42,8 +41,7 @@ SingularValues singular_values(const Mat3& matrix);
 /// Orthogonal Q of a product Q R with an upper triangle, by Householder's reflections.
 Mat3 orthogonal_factor(const Mat3& matrix);
 
-/// Shortest rotation of one unit vector to another; a half turn, about any axis, where they are
-/// opposite.
+/// Shortest rotation of one unit vector to another; a half turn about any axis for opposite ones.
 Quat shortest_rotation(const Vec3& from, const Vec3& to);
 
 // Any size

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // JSON text from elsewhere and to elsewhere: its extent is found before it is parsed, as it may
-// nest so deeply that reading its values exhausts the stack, or hold so many that they exhaust
-// memory.
+// nest so deeply that reading its values exhausts the stack, or hold too many for the memory.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +17,7 @@ struct JsonExtent {
 /// Measures any text; meaningful where it is JSON.
 JsonExtent json_extent(std::string_view text);
 
-// Json is nlohmann::json or nlohmann::ordered_json, whose parser and writer are compiled here,
-// once.
+// Json: nlohmann::json or nlohmann::ordered_json, whose parser and writer are compiled once, here.
 
 /// The value of a JSON text; discarded where the text is none.
 template <class Json>

@@ -19,8 +19,7 @@
 
 namespace sinew {
 
-/// fcc, hcp: closest packings; random: without order; conformal: fcc whose outer layer follows the
-/// surface.
+/// fcc, hcp: closest packings; random: no order; conformal: fcc whose outer layer is the surface's.
 enum class Packing { fcc, hcp, random, conformal };
 /// The lattice that a packing is, or comes from.
 constexpr Packing lattice_of(Packing packing) {
@@ -63,8 +62,7 @@ struct BodyOptions {
   bool moves() const { return !velocity.isZero(0) || !angular_velocity.isZero(0); }
 };
 
-/// A further mesh that the body consists of. Of `body` the keys that place and repair the mesh
-/// count.
+/// A further mesh of the body. Of `body` the keys that place and repair the mesh count.
 struct PartOptions {
   BodyOptions body;
   std::optional<double> young_modulus;  ///< Pa; by default the material's
@@ -124,8 +122,7 @@ struct MaterialOptions {
 
 inline constexpr std::size_t max_relaxation_branches = 4;
 
-/// Whether bonds of first and second neighbors, with factors, make the material isotropic in that
-/// packing.
+/// Whether bonds of first and second neighbors, with factors, make the packed material isotropic.
 constexpr bool is_isotropic(const MaterialOptions& material, Packing packing) {
   return has_bonds(material.model) && material.isotropic.value_or(packing != Packing::hcp);
 }

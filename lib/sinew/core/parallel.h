@@ -13,8 +13,7 @@ namespace sinew {
 /// Runs `job` with at most `threads` threads (0: one per core) for its parallel loops.
 void with_threads(int threads, const std::function<void()>& job);
 
-/// Calls body(begin, end) for pieces of [0, count) of `grain` items; a single piece runs in the
-/// caller.
+/// Calls body(begin, end) for pieces of [0, count) of `grain` items; a single one in the caller.
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 

@@ -15,8 +15,8 @@ namespace sinew {
 
 /// The materials of a glTF file as it describes them.
 struct GltfMaterials {
-  std::string
-      json;  ///< an object of materials, textures, samplers, images, extensionsUsed; or none
+  /// Object of materials, textures, samplers, images, extensionsUsed; or none.
+  std::string json;
   std::vector<std::string> images;  ///< the bytes of those whose bufferView is an index here
 };
 

@@ -24,8 +24,7 @@ enum class Zone { utc, local };
 std::string time_text(const char* format, Zone zone);
 
 /// Memory that this process can allocate without swapping, bytes: the kernel's estimate (free pages
-/// and reclaimable caches), or less where a control group or the address space (ulimit -v) is
-/// limited.
+/// and reclaimable caches), less where a control group or the address space (ulimit -v) is limited.
 double available_memory();
 
 /// Memory that is freed stays with the program, for those that allocate megabytes again and again:

@@ -10,8 +10,7 @@ namespace sinew {
 
 void with_threads(int threads, const std::function<void()>& job) {
   const int count = threads > 0 ? threads : tbb::this_task_arena::max_concurrency();
-  // Both are needed: the control alone gives no more threads than cores, the arena alone no
-  // workers.
+  // Both are needed: the control alone gives no more threads than cores, the arena no workers.
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
   tbb::task_arena(count).execute(job);
 }

@@ -60,8 +60,7 @@ inline Vec3 rotation_vector(Quat rotation) {
   return rotation.vec() * (2 * std::atan2(sine, rotation.w()) / sine);
 }
 
-/// Angles between close keys are small, where a few terms of the series are exact to the last
-/// digit.
+/// Angles between close keys are small: a few terms of the series are exact to the last digit.
 inline Quat rotation_by(const Vec3& vector) {
   const double x2 = vector.squaredNorm() / 4;  // half the angle, squared
   if (x2 < 1.0 / 64) {
