@@ -22,8 +22,7 @@ class FaceTree {
   explicit FaceTree(Triangles surface);
 
   const Triangles& surface() const { return surface_; }
-  /// The faces in the order of the tree; none of a surface without area, which has no nearest
-  /// place.
+  /// Faces in the order of the tree; none of a surface without area, which has no nearest place.
   const std::vector<std::uint32_t>& faces() const { return order_; }
 
   /// The distance of a point, m, if it is below `bound`; `bound` otherwise.

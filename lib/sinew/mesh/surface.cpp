@@ -64,8 +64,8 @@ Surface joined(std::vector<Surface> parts) {
 
 std::vector<double> component_volumes(const Surface& surface) {
   std::vector<double> sums(surface.components);
-  const Vec3 middle =
-      bounds(surface.triangles.points).center();  // preserves precision far from the origin
+  // Preserves precision far from the origin.
+  const Vec3 middle = bounds(surface.triangles.points).center();
   for (std::size_t i = 0; i < surface.triangles.faces.size(); ++i)
     sums[surface.component[i]] +=
         volume_below(surface.triangles, surface.triangles.faces[i], middle);

@@ -31,8 +31,7 @@ struct Shell {
 /// counting those on it. shell_of() is called only where boxes are nested.
 std::vector<int> next_outer(std::span<const Box> boxes, const std::function<Shell(int)>& shell_of);
 
-/// Whether the centers of faces (up to 256, spread evenly) are inside, not counting those on
-/// `outer`.
+/// Whether the centers of faces (up to 256, spread evenly) are inside, without those on `outer`.
 bool encloses(const Winding& outer, std::span<const Corners> faces);
 
 /// The faces to reverse for bodies to point outward and cavities into themselves, as clean() says.

@@ -28,8 +28,7 @@ struct MeshFile {
 /// Throws Error (bad input) unless it is a non-empty regular file that fits into memory.
 void check_mesh_file(const std::string& path);
 
-/// Reads such a file, without its byte order mark. Throws Error (bad input) also where it cannot be
-/// read.
+/// Reads such a file, without its byte order mark. Throws bad input also where it cannot be read.
 MeshFile open_mesh(const std::string& path);
 
 // All throw Error (bad input) naming the file, the line if any, the fault and the cure. Every count
