@@ -37,8 +37,7 @@ Surface prepare(PolygonSoup soup, const BodyOptions& body);
 /// The texture coordinates, normals, groups and materials of a file, for the surface made from it;
 /// none of formats that have no look. Faces take the look of the polygon whose corners are in the
 /// same places; new faces (of closed holes or a wrap) and those with welded corners have none.
-/// Normals are turned into the scene. Throws Error (bad input), naming the file, where it cannot be
-/// read.
+/// Normals are turned into the scene. Throws bad input, naming the file, where it cannot be read.
 SurfaceLook look_of(const BodyOptions& body, const Triangles& surface,
                     std::span<const MeshFormat> more = {});
 

@@ -66,8 +66,7 @@ class Closer {
       if (edge.opposite >= 0) opposite.push_back(point(edge.opposite));
     }
     if (opposite.size() < points.size()) opposite.clear();
-    // Documented as optional, but where the first point equals the last CGAL assumes that it is
-    // given.
+    // Documented as optional, but where the first point equals the last CGAL takes it as given.
     points.push_back(points.front());
     if (!opposite.empty()) opposite.push_back(opposite.front());
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(

@@ -123,8 +123,7 @@ class Walker {
     return next;
   }
 
-  /// Clockwise around a point: the incoming edges and the outgoing ones from `first`
-  /// on.
+  /// Clockwise around a point: the incoming edges and the outgoing ones from `first` on.
   std::vector<EdgeEnd> edge_ends(std::span<const int> coming, int first) const {
     const int point = edges_[first].from;
     const bool known = normals_[point].squaredNorm() > 0.5;
