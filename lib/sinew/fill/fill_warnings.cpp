@@ -48,8 +48,7 @@ void warn_of_holes(const FillReport& report, Warnings& warnings) {
       "holes, if the body bulges in or out there");
 }
 
-/// Counts of sites scatter by about 0.3 sqrt(sites along the surface); three times that is
-/// significant.
+/// Counts of sites scatter by 0.3 sqrt(sites along the surface) or so: thrice that is significant.
 double scatter(double area, double radius) {
   return 0.9 * std::sqrt(area / (4 * radius * radius)) * volume_per_particle(radius);
 }

@@ -126,9 +126,8 @@ Lattice lattice_in(const Box& box, Packing packing, double radius,
   Lattice lattice;
   lattice.packing = packing;
   lattice.radius = radius;
-  lattice.unit =
-      (unit / step).array().ceil().matrix() * step;  // up: spacing is at least 2r, and
-                                                     // a face n layers away stays outside
+  // Up: spacing is at least 2r, and a face n layers away stays outside.
+  lattice.unit = (unit / step).array().ceil().matrix() * step;
   lattice.origin = rounded(center, step);
   lattice.along = fcc ? LatticePlace{1, 1, 0} : LatticePlace{2, 0, 0};
   for (int axis = 0; axis < 3; ++axis) {

@@ -39,8 +39,7 @@ class RowFrame {
   /// +1 where (along, across, up) is right-handed, else -1.
   int handedness() const { return fcc_ ? -1 : 1; }
 
-  /// A point relative to the lattice's origin, in right-handed axes with x along the rows and z up,
-  /// m.
+  /// A point relative to the lattice's origin, m, in right-handed axes: x along the rows, z up.
   Vec3 turned(const Vec3& p) const {
     Vec3 from = p - lattice_.origin;
     if (!fcc_) return from;

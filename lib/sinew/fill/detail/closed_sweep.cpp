@@ -75,8 +75,8 @@ std::vector<int> owners_of(const Surface& surface, const RowCrossings& crossings
   std::size_t missing = 0;
   for (int i = 0; i < surface.components; ++i)
     if (volumes[i] < 0) owner[i] = unknown, ++missing;
-  for (bool learnt = missing > 0; learnt && std::count(owner.begin(), owner.end(), unknown) >
-                                                0;) {  // nested cavities take more than one round
+  // Nested cavities take more than one round.
+  for (bool learnt = missing > 0; learnt && std::count(owner.begin(), owner.end(), unknown) > 0;) {
     learnt = false;
     for (std::size_t row = 0; row + 1 < crossings.first.size(); ++row)
       learnt = learn(crossings.of(row), surface, owner) || learnt;

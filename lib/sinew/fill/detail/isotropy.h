@@ -20,8 +20,7 @@ class DirectionalStiffness {
   /// A spring between particles that far apart (any unit).
   void add(const Vec3& bond);
 
-  /// Over the mean of all directions, to a few thousandths; 0 where the springs leave a strain
-  /// free.
+  /// Over the mean of all directions, to a few thousandths; 0 where springs leave a strain free.
   std::array<double, 2> modulus_range() const;
 
  private:

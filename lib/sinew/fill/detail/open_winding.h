@@ -9,8 +9,7 @@
 // backward along the row. S jumps only on those strips, where no row lies. It is also the signed
 // crossing of the cap before q less the cap's solid angle: so for all caps, those nearby one by one
 // (by one arc tangent), distant ones combined in a tree, with a bound on the error. Where that
-// bound is too large each cap is evaluated by its strips, which are right also for points in its
-// plane.
+// bound is too large each cap is evaluated by its strips, right also for points in its plane.
 #pragma once
 
 #include <array>
