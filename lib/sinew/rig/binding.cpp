@@ -69,8 +69,7 @@ struct Choice {
   }
 };
 
-/// The nearest bones by paths inside; particles without a path get the nearest by straight
-/// distance.
+/// Nearest bones by paths inside; particles without a path get the nearest by straight distance.
 std::size_t choose_inside(Choice& choice, double particle_volume) {
   const auto* near = choice.options.neighbors;
   const InsidePaths paths =

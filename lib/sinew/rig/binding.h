@@ -40,8 +40,8 @@ struct Binding {
   std::vector<std::uint32_t> first;   ///< n + 1 long; particle i has [first[i], first[i + 1])
   std::vector<Influence> influences;  ///< the heaviest of a particle comes first
   std::vector<double> cross_section;  ///< per bone: volume bound to it over its length, m^2
-  std::size_t unreached =
-      0;  ///< particles that no path inside the body connects to a bone: bound to the nearest
+  /// Particles that no path inside the body connects to a bone: bound to the nearest.
+  std::size_t unreached = 0;
 
   std::span<const Influence> of(std::size_t i) const {
     return {influences.data() + first[i], first[i + 1] - first[i]};
@@ -74,10 +74,10 @@ struct BindOptions {
   const NeighborLists* neighbors = nullptr;
   bool inside = false;    ///< nearest by the path inside the body
   double joint_zone = 0;  ///< length of the zones in square roots of the bones' cross-section
-  double core_radius =
-      std::numeric_limits<double>::infinity();  ///< particles farther away have no bone, m
-  std::vector<BoundRegion> regions =
-      {};  ///< override all else; of several that contain a particle the last one applies
+  /// Particles farther away have no bone, m.
+  double core_radius = std::numeric_limits<double>::infinity();
+  /// Override all else; of several that contain a particle the last one applies.
+  std::vector<BoundRegion> regions = {};
   /// Per particle: used instead of the nearest bone. A particle without weights gets the nearest.
   std::optional<BoneWeights> weights = {};
 };

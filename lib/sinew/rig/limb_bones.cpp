@@ -241,8 +241,7 @@ class Maker {
       rig_.tracks.push_back(track_of(name, axis, angle / static_cast<double>(names.size())));
   }
 
-  /// Whether another limb from the same place ends where this one does: they bend as one, about one
-  /// axis.
+  /// Whether another limb from the same place ends where this one does: both bend about one axis.
   bool closes_loop(int number) const {
     const Limb& limb = limbs_[number];
     for (const Limb& other : limbs_)

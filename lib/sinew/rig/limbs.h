@@ -61,8 +61,8 @@ struct LimbRig {
 /// that place, which does not move on its parent either, and goes on with bones short enough for
 /// its curves and for a smooth bend. All of its bones turn about one axis, across the limb, towards
 /// the side to which the body is thin: limbs side by side do not meet. Those that hold other limbs
-/// bend less, those attached at both ends not at all; the two halves of a ring that
-/// leaves and meets the body in one place bend as one.
+/// bend less, those attached at both ends not at all; the two halves of a ring that leaves and
+/// meets the body in one place bend as one.
 LimbRig bones_of(const std::vector<Limb>& limbs, const LimbRigOptions& options);
 
 }  // namespace sinew

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double min_stretch = 0.01;  // a cubic between positive keys may be below
 
-/// A moment of the clip, s, and its rate in the scene: 0 where it holds, below 0 where it plays
-/// backwards.
+/// A moment of the clip, s, and its rate in the scene: 0 where it holds, below 0 in reverse.
 struct ClipTime {
   double time, speed;
 };

@@ -34,8 +34,7 @@ SwingTwist swing_twist_of(const Quat& rotation, const Vec3& axis) {
   return swing_twist;
 }
 
-/// Rates of a swing and a twist: lean, the direction of the lean (about the axis at rest), twist;
-/// rad/s.
+/// Rates of a swing and a twist, rad/s: lean, its direction (about the axis at rest), twist.
 struct Rates {
   double lean, round, twist;
 };

@@ -21,8 +21,7 @@ struct BonePose {
   double stretch_rate = 0;  ///< 1/s
 
   Vec3 axis() const { return frame.rotation.col(0); }
-  /// The present position of a point of the bone that was at `point` when the bone was `bone` at
-  /// rest.
+  /// Present position of a point of the bone that was at `point` when the bone was `bone` at rest.
   Vec3 carried(const Vec3& point, const Bone& bone) const {
     const Vec3 offset = point - bone.head();
     const double longer = (stretch - 1) * bone.axis().dot(offset);

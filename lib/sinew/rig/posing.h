@@ -15,8 +15,7 @@
 
 namespace sinew {
 
-/// Rotations of bones by name, relative to rest, in the directions of the parent (of the scene for
-/// roots).
+/// Rotations of bones by name, relative to rest, in the parent's directions (roots: the scene's).
 using BoneRotations = std::map<std::string, Quat>;
 
 class Posing {

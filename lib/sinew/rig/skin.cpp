@@ -142,8 +142,7 @@ void add_body(Skin& skin, const Points& points, double radius) {
   skin.shape = rest_shape(std::move(near), range);
 }
 
-/// Rotation of particle j, from its neighbors' neighbors as well: alone it may be the end of a
-/// line.
+/// Rotation of particle j, also from its neighbors' neighbors: alone it may be the end of a line.
 Mat3 rotation_around(const RestShape& body, const Points& now, std::size_t j) {
   Mat3 spread = moved_spread(body, now, j);
   for (const auto k : body.neighbors.of(j)) spread += moved_spread(body, now, k);

@@ -25,8 +25,7 @@ struct Skin {
   std::vector<double> weight;           ///< sums to 1 for each vertex
 
   /// The particles that matter, ascending indices into the body's rest points: those with weights
-  /// for vertices, their neighbors, and the neighbors of those, from which their deformation
-  /// follows.
+  /// for vertices, their neighbors, and the neighbors of those, which give their deformation.
   std::vector<std::uint32_t> near;
   std::vector<std::uint32_t> weighted;  ///< particles with weights: ascending places in `near`
   RestShape shape;  ///< shape of `near`; complete for those with weights and their neighbors
@@ -46,8 +45,7 @@ Skin make_skin(const Points& vertices, const Points& points, double radius,
 /// in loose packings, where a vertex has others: it then follows every affine motion of the body.
 Skin without_lone_particles(Skin skin);
 
-/// The vertices when the particles are at `now` (m, in the order of the body's points). In
-/// parallel.
+/// The vertices when the particles are at `now` (m, in the order of the body's points). Parallel.
 Points follow(const Skin& skin, const Points& now);
 
 /// An array of the body's particles at the vertices: the mean by the weights of the particles that

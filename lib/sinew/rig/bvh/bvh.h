@@ -9,8 +9,7 @@
 // "1e-3", a byte order mark, names with spaces, several roots, joints without channels, channels in
 // any order, an End Site beside child joints (of several in one joint the first counts), with a
 // name or "CHANNELS 0". One frame more than announced, or fewer, are read with a warning. A file
-// that ends after its HIERARCHY is a skeleton without a clip. Not accepted: comments, scale
-// channels.
+// ending after its HIERARCHY is a skeleton without a clip. Not accepted: comments, scale channels.
 #pragma once
 
 #include <filesystem>

@@ -54,8 +54,7 @@ bool carrier_lies_in(const Skeleton& skeleton, const Anatomy& anatomy) {
              0.02 * anatomy.height;
 }
 
-/// Whether some joint is never near its rest, as where bones were measured otherwise than they
-/// move.
+/// Whether some joint is never near its rest, as where bones were not measured as they move.
 bool is_always_far_from_rest(const Skeleton& skeleton, Motion clip,
                              const std::vector<double>& times) {
   clip.preroll = 0;
