@@ -68,8 +68,7 @@ struct PackedBody {
 /// depends on the body's shape.
 Material make_material(const MaterialOptions& settings, const PackedBody& body);
 
-/// The shear sqrt(D : D), D the deviator of the strain, of a bar that is pulled to its yield
-/// strain.
+/// The shear sqrt(D : D), D the deviator of the strain, of a bar pulled to its yield strain.
 double yield_shear(double yield_strain, double poisson_ratio);
 /// Returns Poisson's ratio in the options: of bonds alone where no volume is kept.
 double poisson_ratio_of(const MaterialOptions& settings);
