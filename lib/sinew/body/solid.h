@@ -12,8 +12,8 @@
 // n^T / sum w is a particle's stress without pressure: the sum is over its bonds, n are their
 // directions, p = k (d - l) d, w = k l0^2 with the length l0 before any flow, m = sum p / sum w.
 // Where sum w nnnn is isotropic, D = 15/2 dev T is the deviator of a small elastic strain, and at
-// any strain that of the stress over 2 G. Where the shear sqrt(D : D)
-// exceeds the yield shear y, the rest length of a bond between i and j changes by
+// any strain that of the stress over 2 G. Where the shear sqrt(D : D) exceeds the yield shear y,
+// the rest length of a bond between i and j changes by
 //   dl/dt = rate l n (P_i + P_j)/2 n,  P = (1 - y / sqrt(D : D)) D, or 0 below it:
 // shear decays to the yield shear, and pressure stays.
 // Bonds that relax have branches: see maxwell.h.

@@ -11,8 +11,7 @@
 //   the same, where none takes over        0.894, 0.946, 0.965
 //   bonds alone, of a ratio of 0.25        0.950, 0.979, 0.988
 //
-//     const std::vector<double> weights = volume_weights(rest, near.nearest, material,
-//     volume_share);
+//     const auto weights = volume_weights(rest, near.nearest, material, volume_share);
 #pragma once
 
 #include <vector>
