@@ -34,8 +34,7 @@ struct FollowingPoints {
 FollowingPoints following(const Points& places, const Points& rest, double radius,
                           std::size_t count = 20);
 
-/// The particle nearest to each place; the lower one of two. Throws bad input for no particles. In
-/// parallel.
+/// The particle nearest to each place; the lower of two. Throws bad input for none. Parallel.
 std::vector<std::uint32_t> nearest_particles(const Points& places, const Points& rest,
                                              double radius);
 

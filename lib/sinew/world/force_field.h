@@ -30,8 +30,7 @@ struct Attraction {
   double core = 0;            ///< m, > 0
 };
 
-/// Around an axis, right-handed, at constant acceleration; inside `core`, proportional to the
-/// distance.
+/// Around an axis, right-handed, at constant acceleration; proportional to distance inside `core`.
 struct Swirl {
   Vec3 point = Vec3::Zero();  ///< place on the axis, m
   Vec3 axis = Vec3::UnitZ();  ///< direction of any length but 0

@@ -45,8 +45,7 @@ Load force_load(const std::string& name, const std::vector<std::uint32_t>& parti
 inline constexpr std::size_t followed_by_corners = 12;
 
 /// No side of a pressed face need be shorter, in radii: each corner pushes as many particles of the
-/// outermost layer as there are for each corner, and with 3 instead the stress at the surface is as
-/// even.
+/// outermost layer as there are for each corner; with 3 the stress at the surface is as even.
 inline constexpr double longest_pressed_side = 4;
 
 /// A pressure (Pa) on all faces of a surface whose points follow the particles at `rest` with

@@ -149,8 +149,7 @@ Vec3 force_on(const Muscles& all, const std::vector<Mat3>& by_offset, std::uint3
     const Mat3* other = of(j);
     if (!own && !other) continue;
     const Vec3 offset = all.rest.points[j] - all.rest.points[i];
-    // Each term alone, as j adds it with the opposite sign: the sum of all forces is zero up to
-    // rounding.
+    // Each term alone, as j adds it with the opposite sign: forces sum up to zero but for rounding.
     if (own) force += *own * offset;
     if (other) force += *other * offset;
   }

@@ -98,8 +98,7 @@ struct FiberEnergy {
 FiberEnergy muscle_forces(const Muscles& muscles, const Activations& activations,
                           const Particles& particles, Points& forces);
 
-/// Kirchhoff stress of the fibers at each particle, Pa, where they are `now` (n x 3, m, by id). In
-/// parallel.
+/// Kirchhoff stress of fibers at each particle, Pa, at places `now` (n x 3, m, by id). Parallel.
 std::vector<Mat3> muscle_stress(const Muscles& muscles, const Activations& activations,
                                 const Points& now);
 

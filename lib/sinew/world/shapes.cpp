@@ -12,8 +12,7 @@ namespace sinew {
 
 namespace {
 
-// Axes given with rounded digits are accepted; the distance is then wrong by no more than this
-// fraction.
+// Axes given with rounded digits are accepted; the distance is then wrong by at most this fraction.
 constexpr double square_enough = 1e-6;
 // Closer than this to a capsule's segment, in radii, a direction is rounding.
 constexpr double rounding_of_lengths = 1e-9;

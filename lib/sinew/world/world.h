@@ -78,8 +78,7 @@ ParticleWorld world_on(const ParticleState& particle, double mass, const World& 
                        std::span<Reaction> reactions);
 
 /// An upper bound of the stiffness that the world adds to a particle of `particles`' radius and
-/// mass, N/m: the three stiffest obstacles (more at once need a shorter step), fields, muscles and
-/// pressures.
+/// mass, N/m: three stiffest obstacles (more need a shorter step), fields, muscles, pressures.
 double added_stiffness(const World& world, const Particles& particles);
 
 /// An upper bound of the damping rate it adds, 1/s: drag, and the larger of damping and stick of
