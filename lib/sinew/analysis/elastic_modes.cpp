@@ -254,8 +254,7 @@ class ModeFinder {
   Vector squared_;
 };
 
-/// Finds the modes of a body small enough; masses in proportion to the volume shares, or all the
-/// same.
+/// Finds the modes of a body small enough; masses in proportion to the volume shares, or all equal.
 ElasticModes modes_of(const Body& whole, const Holding& holding, bool by_volume, int shapes) {
   const std::vector<std::size_t> places = largest_part(whole);
   const Body body = part_of(whole, places);
@@ -278,8 +277,7 @@ ElasticModes modes_of(const Body& whole, const Holding& holding, bool by_volume,
   return found;
 }
 
-/// Values at `places` of those at points of a packing, `spacing` (m) apart: means, nearer ones
-/// more.
+/// Values at `places` of those at points of a packing, `spacing` (m) apart: means, by nearness.
 Points interpolated(const Points& values, const Points& at, double spacing, const Points& places) {
   Points all(places.size(), Vec3::Zero());
   const double range = 1.5 * spacing;

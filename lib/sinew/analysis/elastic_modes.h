@@ -50,8 +50,7 @@ ElasticModes elastic_modes(const Body& body, int shapes = 0);
 std::string held_by(const Body& body);
 
 /// Number of layers of particles across the thinnest tenth of a body in closest packing: from its
-/// surface to the deepest particle below, and out again; infinite for other packings, which have
-/// none.
+/// surface to the deepest particle below, and out again; infinite for other packings.
 double layers_across(const Body& body);
 
 /// The same body of fewer particles, `times` as large, in FCC packing along its axes, without

@@ -112,8 +112,7 @@ void add_restraints(const Body& body, const std::vector<std::size_t>& component,
                                                 components[component[pin.particle]].restrained);
 }
 
-/// The motion that is restrained least, of those that move the component; of length 0 where all
-/// are.
+/// The motion restrained least, of those that move the component; of length 0 where all are.
 Motion6 free_of(const Component& component) {
   const Eigendecomposition moved = eigendecomposition(component.moved);
   const double most = moved.values[5];

@@ -15,8 +15,7 @@
 
 namespace sinew {
 
-/// Upper bounds of what the surroundings of a body add per particle; see added_stiffness() in
-/// world/world.h.
+/// Upper bounds of what surroundings add per particle; see added_stiffness() in world/world.h.
 struct WorldLoad {
   double stiffness = 0;  ///< N/m
   double damping = 0;    ///< 1/s
@@ -43,8 +42,7 @@ struct StepChoice {
 };
 
 /// The requested step, s, or without one `factor` times the limit, shortened so that a whole number
-/// of steps makes a frame interval (s). Throws bad input when no step is requested and none is
-/// stable.
+/// of steps makes a frame interval (s). Throws bad input without a request where no step is stable.
 StepChoice choose_step(std::optional<double> step, double factor, double limit, double interval);
 
 // The step limit of thin bodies. The closed forms above are those of an infinite packing; a body of
