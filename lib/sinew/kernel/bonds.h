@@ -283,8 +283,7 @@ SINEW_INLINE bool needs_care(const SolidLaw<L>& law, const Met<L>& met, typename
            L::any(L::less(law.inverse.most, met.most));
 }
 
-/// A function of its own, so that the fast path keeps its values in registers. Whether care was
-/// needed.
+/// A function of its own, so that the fast path keeps values in registers. Whether care was needed.
 template <class L, PairLaw pairs, Pass pass>
 [[gnu::noinline]] bool sum_partners_carefully(const Step<typename L::Real>& step, std::size_t block,
                                               int lane, PairSums<L>& sums, Met<L>& met) {

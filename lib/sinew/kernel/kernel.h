@@ -164,8 +164,7 @@ struct RigidDamping {
   const AffineMotion<Real>* motions;
 };
 
-/// Subpieces move on their own: particles of a piece that follow each other. A piece begins with
-/// one.
+/// Subpieces move on their own: consecutive particles of a piece. A piece begins with one.
 template <class Real>
 struct Subpieces {
   const std::uint32_t* first;     ///< particle of each; one longer, ends with the last particle
@@ -397,8 +396,7 @@ struct Functions {
   LawFunctions<Real> law[pair_laws];
   /// Bytes that Surroundings::forces takes, at 64 byte boundaries.
   std::size_t kept;
-  /// Functions of groups, by their motions: places and velocities; sums of forces; what bones
-  /// exert.
+  /// Functions of groups, by motions: places and velocities; sums of forces; what bones exert.
   void (*put[motions])(const PutInput<Real>&);
   /// The largest squared length of a field at the particles.
   double (*largest[motions])(const FieldInput&);

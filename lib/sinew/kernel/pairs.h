@@ -280,8 +280,7 @@ SINEW_INLINE PairSums<L> sum_pairs(const Step<typename L::Real>& step, const Pul
   return adder.sums();
 }
 
-/// A function of its own, so that the fast path keeps its values in registers. Whether care was
-/// needed.
+/// A function of its own, so that the fast path keeps values in registers. Whether care was needed.
 template <class L, Pass pass, class List>
 [[gnu::noinline]] bool sum_pairs_carefully(const Step<typename L::Real>& step, std::ptrdiff_t i,
                                            List list, PairSums<L>& sums) {
