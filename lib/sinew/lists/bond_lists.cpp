@@ -49,8 +49,8 @@ class Kinds {
     return static_cast<std::uint32_t>(met.size() - 1);
   }
 
-  static constexpr double shared =
-      0;  ///< the factor of kinds of several bonds, which have their own
+  /// Factor of kinds of several bonds, which have their own.
+  static constexpr double shared = 0;
   std::vector<Vec3> met;
   std::vector<double> factor;
 

@@ -50,8 +50,7 @@ class FiberLists {
   std::vector<Real> level_;
 };
 
-/// Lists fibers of particles of `mass` (kg), `id` in the kernel's order, with their neighbors at
-/// rest.
+/// Lists fibers of particles of `mass` (kg), `id` in the kernel's order, with neighbors at rest.
 template <class Real>
 FiberLists<Real> fiber_lists(const Body& body, double mass, std::span<const std::int32_t> id,
                              const BondLists<Real>& bonds, const Units& units);

@@ -19,8 +19,7 @@ constexpr double min_travel = 0.125, travel_in_steps = 16;
 constexpr double min_drift = 0.06, drift_in_steps = 1.5;
 // What a step may take particles without warning, in outer ranges: bonds that snap.
 constexpr double jump = 0.06;
-// Surveys serve when particles have drifted by this fraction of the inner skin, but not every few
-// steps.
+// Surveys serve after a drift by this fraction of the inner skin, but not every few steps.
 constexpr double drift_fraction = 0.1;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 

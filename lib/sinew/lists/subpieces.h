@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Subpieces, which move on their own: particles of different bones or groups, which follow each
-// other in memory, may share a piece of the kernel's blocks. Whose lists are valid is judged by
-// subpieces.
+// other in memory, may share a piece of the kernel's blocks. Subpieces tell whose lists are valid.
 #pragma once
 
 #include <cstddef>

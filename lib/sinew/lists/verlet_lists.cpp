@@ -15,8 +15,7 @@ namespace sinew {
 namespace {
 
 // In diameters, by measurement: longer lists cost every step, shorter ones are made more often. The
-// inner skin excludes the second neighbors of a packed body. Contacts are few: theirs may be
-// longer.
+// inner skin excludes second neighbors of a packed body. Contacts are few: theirs may be longer.
 constexpr double outer_skin = 0.9, inner_skin = 0.1;
 constexpr double outer_skin_of_contacts = 0.9, inner_skin_of_contacts = 0.3;
 // Steps between surveys, by measurement: lists of contacts last longer.

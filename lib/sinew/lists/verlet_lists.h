@@ -44,11 +44,9 @@ class VerletLists {
 
   /// The inner lists, by piece.
   const kernel::Lists* arrays() const { return arrays_.data(); }
-  /// The subpieces of the pieces, their velocity fields, and where a step tells how far off these
-  /// are.
+  /// Subpieces of the pieces, their velocity fields, and where a step tells how far these are off.
   kernel::Subpieces<Real> subpieces();
-  /// Counts what moved a particle of a piece by so much, in lengths of the kernel, with the step
-  /// before.
+  /// Counts what moved a piece's particle by so much (lengths of the kernel) with the step before.
   void add_moved(std::size_t piece, double moved);
 
   /// Lists of the same kind, for steps of `step` (s), not yet made, that go on with its counts.
