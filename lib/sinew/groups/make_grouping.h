@@ -22,8 +22,7 @@ namespace sinew {
 
 struct Body;
 
-/// Whether this sinew was built with groups (SINEW_GROUPS). Without, all that makes some throws bad
-/// input.
+/// Whether this sinew has groups (SINEW_GROUPS). Without, all that makes some throws bad input.
 bool groups_are_built();
 
 inline constexpr std::size_t none_cubic = std::numeric_limits<std::size_t>::max();

@@ -165,8 +165,7 @@ void GroupLimits<Real>::look_again() {
   strained_until_.assign(strained_until_.size(), -1);
 }
 
-/// Largest speed relative to the field of its particles and what is between them in memory,
-/// squared.
+/// Largest squared speed relative to the field of its particles and what lies between in memory.
 template <class Real>
 double GroupLimits<Real>::fastest_of(const PieceBox& one, const Units& units,
                                      const GroupMotion& motion,

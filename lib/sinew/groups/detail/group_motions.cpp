@@ -247,8 +247,7 @@ void GroupMotions<Real>::add_bones(const kernel::Step<Real>& step, const Units& 
     add(found[k], static_cast<std::size_t>(runs[k].group), pulls);
 }
 
-/// What the kernel gathered on those that are awake takes the place of what follows from the
-/// motion.
+/// What the kernel gathered on those awake takes the place of what follows from the motion.
 template <class Real>
 void GroupMotions<Real>::add_active(const BondLists<Real>& bonds, const kernel::Step<Real>& step,
                                     Pulls& pulls) {
@@ -388,8 +387,8 @@ void GroupMotions<Real>::constrain(Forces& forces, const std::vector<std::uint32
 
 template <class Real>
 void GroupMotions<Real>::save(SimulationState& state) const {
-  std::vector<double>
-      saved;  // number of terms of each group, then those of places, m, and velocities
+  // Number of terms of each group, then those of places, m, and velocities.
+  std::vector<double> saved;
   for (std::size_t g = 0; g < motions_.size(); ++g) {
     const int terms = (*shapes_)[g].terms();
     saved.push_back(terms);

@@ -49,8 +49,7 @@ class GroupMotions {
   void show(BlockState<Real>& state, const Units& units, std::span<const std::uint32_t> pieces);
   /// Makes room for what the kernel gathers, and says where.
   void put_into(kernel::Grouped<Real>& grouped);
-  /// Finds the next motions from what the kernel gathered in a step, and the bones' forces on idle
-  /// blocks.
+  /// Finds the next motions from what the kernel gathered and the bones' forces on idle blocks.
   void sum(const BondLists<Real>& bonds, const kernel::Step<Real>& step, const Units& units,
            const GroupStep& by);
   void advance();

@@ -5,8 +5,8 @@
 // are judged by what they come to until the next check.
 //
 //     DynamicGroups dynamic(body, motion, options);
-//     if (dynamic.must_split(now, constrained)) next = dynamic.regroup(now, constrained,
-//     particles);
+//     if (dynamic.must_split(now, constrained))
+//       next = dynamic.regroup(now, constrained, particles);
 #pragma once
 
 #include <array>
@@ -49,8 +49,7 @@ class DynamicGroups {
   const std::vector<std::int32_t>& cells() const { return cell_; }
   std::size_t cell_count() const { return count_; }
 
-  /// Whether groups constrain a cell too strongly, or a joint that was still moves until the next
-  /// check.
+  /// Whether groups constrain a cell too much, or a still joint moves until the next check.
   bool must_split(const GroupingMoment& now, std::span<const ConstrainedCell> constrained) const;
   /// Whether at least so many particles are free that might join.
   bool may_join(const GroupingMoment& now, std::size_t enough) const;
