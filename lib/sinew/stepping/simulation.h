@@ -82,8 +82,7 @@ class Simulation {
   /// moment after another; time() is that of its bones and surroundings. Call it before the first
   /// step. Throws bad input for the reference stepper.
   void relax(LoadSteps steps);
-  /// Changes groups of particles as the body moves, from now on. Throws bad input for the reference
-  /// stepper.
+  /// Changes groups as the body moves from now on. Throws bad input for the reference stepper.
   void enable_dynamic_groups(const DynamicOptions& options);
 
   /// Moves the bones so from now on; at the present moment the pose should be the same. Throws bad

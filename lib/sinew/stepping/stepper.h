@@ -143,8 +143,7 @@ class Stepper {
   // Groups of particles that move as one, of steppers that have them.
 
   virtual bool has_groups() const { return false; }
-  /// After the body's grouping has changed: groups move as their particles do, as nearly as they
-  /// can.
+  /// After the body's grouping has changed: groups move as nearly as they can like their particles.
   virtual void regroup() {}
   /// The same without a change of the grouping: velocities have changed.
   virtual void fit_groups() {}

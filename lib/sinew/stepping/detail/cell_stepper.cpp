@@ -319,8 +319,7 @@ void CellStepper::move(std::size_t i, double kick) {
   particles_.set_velocity(i, kicked);
 }
 
-/// Over the step, relative to the bone or, without one and for what is held, to the previous
-/// motion.
+/// Over the step, relative to the bone or, without one and for what is held, to the motion before.
 Vec3 CellStepper::moved(std::size_t i, const Particle& before, const Pose& pose) const {
   const auto bones = body_->binding.of(particles_.id[i]);
   const Vec3 carried = bones.empty() || (!is_held_.empty() && is_held_[i])

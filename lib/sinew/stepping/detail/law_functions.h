@@ -23,8 +23,7 @@ inline kernel::PairLaw kernel_law(const Body& body) {
   return bonds_change(material) ? kernel::changing_springs : kernel::springs;
 }
 
-/// Throws bad input for bonds that change, or a precision, that the material's own law does not
-/// know.
+/// Throws bad input for changing bonds, or a precision, that the material's own law does not know.
 template <class Real>
 kernel::LawFunctions<Real> law_functions(const Body& body, const kernel::Functions<Real>& kernel) {
   const Material& material = body.material;

@@ -133,8 +133,7 @@ void ListStepper<Real>::hold(const TimedPose& now) {
   surroundings_.hold(now.pose, now.time, layout_.now, layout_.units(), moved_);
 }
 
-/// The work at the pose, with what must be known of all particles before; `whole`: of groups as
-/// well.
+/// The work at the pose, with what must be known of all particles before; `whole`: of groups, too.
 template <class Real>
 kernel::Step<Real> ListStepper<Real>::begin(const TimedPose& moment, Points* world_forces,
                                             bool whole) {
@@ -458,8 +457,8 @@ void ListStepper<Real>::find_flow(const kernel::Step<Real>& now) {
 template <class Real>
 Failure ListStepper<Real>::failure(const Pose& pose) {
   Failure failure;
-  const double most =
-      max_radii_ * body_->material.pair.r * (1 - (sizeof(Real) == 4 ? 1e-5 : 0));  // rounding
+  // Less 1e-5 for rounding in single precision.
+  const double most = max_radii_ * body_->material.pair.r * (1 - (sizeof(Real) == 4 ? 1e-5 : 0));
   Offender fastest{0, true, -1};
   for (std::size_t k = 0; k < layout_.caller().size(); ++k) {
     if (groups_.is_idle(k)) continue;

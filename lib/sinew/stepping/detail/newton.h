@@ -34,8 +34,7 @@ class Newton {
     std::int64_t negative = 0;  ///< pivots: the body would buckle there
   };
   /// Where the body comes to, by its tangent at `begin`, where it is at rest, when all that acts on
-  /// it changes as it does from `begin` to `soon`, 1/`part` times as long. None: the tangent is
-  /// singular.
+  /// it changes as it does from `begin` to `soon`, 1/`part` times as long. None: singular tangent.
   std::optional<Solution> predict(Stepper& stepper, const TimedPose& begin, const TimedPose& soon,
                                   double part);
   /// Where it comes to by the forces that nothing answers at the moment.
