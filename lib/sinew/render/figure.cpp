@@ -139,8 +139,7 @@ int caption_lines(const std::vector<Snapshot>& snapshots) {
   return most;
 }
 
-/// The largest scale at which the columns, with gaps between, fit into the width and the row
-/// height.
+/// Largest scale at which the columns, with gaps between, fit into the width and the row height.
 void lay_columns(SheetLayout& layout, const SheetOptions& options) {
   const int count = static_cast<int>(layout.columns.size()), gap = layout.margin;
   const double space = options.width - (count + 1) * gap;

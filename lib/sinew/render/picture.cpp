@@ -121,8 +121,7 @@ void write_labels(Image& image, const Snapshot& snapshot, const PictureOptions& 
   }
 }
 
-/// A point near what the camera shows, where graphics would lose places: they have single
-/// precision.
+/// A point near what the camera shows: far away graphics lose places, in single precision.
 Vec3 origin_of(const Camera& camera) {
   if (camera.frame.isEmpty()) return Vec3::Zero();
   const Vec3 center = camera.view.transpose() * camera.frame.center();

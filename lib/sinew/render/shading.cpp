@@ -19,8 +19,8 @@ namespace {
 struct Side {
   int face, corner;  ///< the side from this corner of the face to the next
 };
-using Sides =
-    std::map<Shading::Edge, std::vector<Side>>;  // ordered: pictures do not depend on hashing
+// Ordered: pictures do not depend on hashing.
+using Sides = std::map<Shading::Edge, std::vector<Side>>;
 
 Sides sides_of(const Triangles& surface) {
   Sides sides;

@@ -39,8 +39,7 @@ vtkNew<vtkCellArray> vtk_cells(const std::vector<std::array<Index, N>>& cells) {
 /// Edges between points.
 vtkNew<vtkPolyData> net(const Points& points, const std::vector<Shading::Edge>& edges);
 
-/// `values`: of the surface's points. `source`: the surface's point behind each point; none:
-/// itself.
+/// `values`: of the surface's points. `source`: surface's point behind each point; none: itself.
 vtkNew<vtkDoubleArray> named_values(const char* name, const std::vector<double>& values,
                                     const std::vector<int>& source = {});
 

@@ -3,7 +3,7 @@
 // computed, and change nothing.
 //
 //     for (const std::size_t i : visible_spheres(snapshot.particles, snapshot.radius, view))
-//     add(i);
+//       add(i);
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,7 @@
 namespace sinew {
 
 /// All that a parallel projection along the third row of `view` shows, and some that it does not:
-/// those that others in front of them do not hide entirely, by cells of a sixth of the radius.
-/// Ascending.
+/// those that others in front do not hide entirely, by cells of a sixth of the radius; ascending.
 std::vector<std::size_t> visible_spheres(const Points& centers, double radius, const Mat3& view);
 
 }  // namespace sinew
