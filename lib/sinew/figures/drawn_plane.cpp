@@ -8,8 +8,8 @@ namespace sinew {
 namespace {
 
 constexpr double min_joint_turn = 0.02;  // rad: below it a joint does not turn
-constexpr double in_sight =
-    0.35;  // cosine between a plane's normal and the direction to the viewer
+// Cosine between a plane's normal and the direction to the viewer.
+constexpr double in_sight = 0.35;
 
 /// The part of `vector` across the direction `along`, of length 1; zero where there is none.
 Vec3 across(const Vec3& vector, const Vec3& along) {

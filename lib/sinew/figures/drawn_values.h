@@ -70,8 +70,7 @@ class DrawnSkin {
 /// Whether a file of a series has this array of its points.
 bool has_array(const RunFiles& run, const PvdRow& row, const std::string& name);
 
-/// A vector array of the particles of a frame. Throws bad input where the run has none of that
-/// name.
+/// A vector array of the particles of a frame. Throws bad input where the run has none so named.
 Points drawn_vectors(const RunFiles& run, std::size_t index, const std::string& name);
 
 }  // namespace sinew

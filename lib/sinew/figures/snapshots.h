@@ -27,8 +27,7 @@ namespace sinew {
 /// `angle` of the bones, for the caption, rad. Bones have their lengths in the frame.
 Snapshot snapshot_of(const RunFiles& run, FrameState frame, double angle);
 
-// A run as a sequence of snapshots, and the quantities over all frames that the first picture
-// needs.
+// A run as snapshots, and the quantities over all frames that the first picture needs.
 
 /// A view preset applied to a run.
 struct DrawnView {
