@@ -49,8 +49,7 @@ PolygonSoup polygons_of(vtkDataSet& shape);
 // of the table in core/arrays.h apply, as "surface", "particles", "bones", "frames".
 
 /// What VTK's filters and mappers for surfaces, lines and points take. The array `normal` becomes
-/// the normals, too, by which VTK shades smoothly. Lines come before triangles, as VTK counts
-/// cells.
+/// the normals, too, by which VTK shades smoothly. Lines come before triangles, as VTK counts them.
 vtkSmartPointer<vtkPolyData> vtk_poly_data(const Dataset& data, std::string_view series);
 
 /// What the files hold: cells in the order of the dataset, of particles a VTK_VERTEX each.
