@@ -92,8 +92,7 @@ void ensure_display() {
   check_addresses();
   if (display_answers()) return;
   for (int attempt = 0; attempt < 5; ++attempt) {
-    // Not the first free number: a display that is just ending there would take over the new
-    // socket.
+    // Not the first free number: a display that is just ending there would take over the socket.
     std::string name = ":";
     name += std::to_string(100 + (getpid() + 7919 * attempt) % 50000);
     if (!start_xvfb(name)) continue;
