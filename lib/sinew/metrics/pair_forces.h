@@ -48,8 +48,7 @@ std::vector<double> energy_densities(const RestBody& rest, const FrameState& sta
 /// Below this volume ratio a body is crushed flat or folded, and has no true stress.
 inline constexpr double min_volume_ratio = 0.05;
 
-/// Cauchy's (true) stress, Pa, of Kirchhoff's and the volume ratio J; not-a-number for J up to
-/// min_volume_ratio.
+/// Cauchy's (true) stress, Pa, of Kirchhoff's and ratio J; not-a-number up to min_volume_ratio.
 Mat3 cauchy_stress(const Mat3& kirchhoff, double J);
 
 /// sqrt(3/2 dev s : dev s).

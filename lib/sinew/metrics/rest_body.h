@@ -58,8 +58,7 @@ struct RestInput {
   RestForces forces = {};
   Energies start;  ///< energies of the first frame, from which the energy balance is taken
   std::vector<double> density = {};  ///< n; factors on the mass; or empty
-  /// n; as surface_layers() of the whole body, of which these are a part; empty: they are all of
-  /// it.
+  /// n; as surface_layers() of the whole body, of which these are a part; empty: these are all.
   std::vector<std::int32_t> layer = {};
 };
 

@@ -49,8 +49,7 @@ struct Summary {
 Summary summarize(std::span<const FrameMetrics> frames, double radius,
                   std::vector<Hold> holds = {});
 
-/// Adds the particles that have the worst values. worst_particles: of every frame, see
-/// MeasuredFrame.
+/// Adds the particles with the worst values. worst_particles: of every frame, see MeasuredFrame.
 void add_worst_particles(Summary& summary,
                          std::span<const std::vector<std::int64_t>> worst_particles);
 

@@ -26,8 +26,7 @@ struct Metric {
   std::string_view formula;
   double FrameMetrics::*value;
   Worse worse = Worse::larger;
-  /// The values of which the metric is the worst over all particles; none where it is not of that
-  /// kind.
+  /// Values of which the metric is the worst over all particles; none where it is not of that kind.
   std::vector<double> ParticleValues::*of_particles = nullptr;
 };
 

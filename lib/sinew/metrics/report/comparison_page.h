@@ -16,8 +16,8 @@
 namespace sinew {
 
 /// Both playbacks in one, of the frames that both have. The second is shifted along the shorter of
-/// its sides, so that the page's camera sees them next to each other. Bones of
-/// the same name have one color, and the others' names get the prefixes.
+/// its sides, so that the page's camera sees them next to each other. Bones of the same name have
+/// one color, and the others' names get the prefixes.
 Playback side_by_side(const Playback& first, const Playback& second,
                       const std::array<std::string, 2>& prefixes);
 

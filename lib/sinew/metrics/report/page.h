@@ -75,8 +75,7 @@ std::string checks_table(std::span<const Check> checks);
 std::string described(const Metric& metric);
 std::string described(const RunMetric& metric);
 
-/// Heading, hint and container of the charts; `with_view`: a click on one moves the 3D view to that
-/// time.
+/// Heading, hint and container of the charts; `with_view`: a click moves the 3D view to that time.
 std::string charts_section(bool with_view);
 
 /// Heading, hint and container of the chart of a testing machine; empty without one.

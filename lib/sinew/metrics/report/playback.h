@@ -84,9 +84,8 @@ struct ThinSurface {
 ThinSurface thin_surface(const Triangles& surface, std::size_t most);
 
 /// A playback without frames that selects what will be kept: all of a small run; of a large one,
-/// frames at even intervals including the first and the last, particles selected by a
-/// hash of their index, and a coarser skin. `fraction`: fraction of a page's bytes that it may
-/// take.
+/// frames at even intervals including the first and the last, particles selected by a hash of their
+/// index, and a coarser skin. `fraction`: fraction of a page's bytes that it may take.
 Playback plan_playback(const RestBody& rest, std::size_t frames, double fraction = 1);
 
 /// Inserts a frame in order of time.

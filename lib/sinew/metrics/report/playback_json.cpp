@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double outside =
-    1e-3;  // fraction of a field's values at either end that the range excludes
+// Fraction of a field's values at either end that the range excludes.
+constexpr double outside = 1e-3;
 
 /// The numbers' bytes, lowest first.
 template <class Number>
