@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The limit of a quantity as particles become small, from runs with particles of several sizes.
 //
-//     const ContinuumLimit limit = continuum_limit(radii, deflections);  // limit.value +-
-//     limit.error
+//     const ContinuumLimit limit = continuum_limit(radii, deflections);
+//     // limit.value +- limit.error
 #pragma once
 
 #include <span>

@@ -25,8 +25,7 @@ std::string study_json(const Study& study);
 /// metric of all runs over time. The whole page, UTF-8.
 std::string study_html(const Study& study, const std::string& title);
 
-/// Writes the three files into `out`, which is created and gives the page its title. Throws not
-/// written.
+/// Writes the three files into `out`, which is created and titles the page. Throws not written.
 void write_study(const Study& study, const std::filesystem::path& out);
 
 }  // namespace sinew

@@ -17,8 +17,7 @@ namespace sinew {
 namespace {
 
 constexpr std::size_t max_curves = 30;  // number of curves over the radius
-// Fraction of the largest result of its unit: less is zero but for rounding and sides of the
-// packing.
+// Fraction of its unit's largest result: less is zero but for rounding and sides of the packing.
 constexpr double telling = 1e-3;
 
 std::string header(const Study& study, const std::string& title) {
