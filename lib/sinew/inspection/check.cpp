@@ -149,8 +149,7 @@ void add_rest(const RestTrial& trial, Findings& results) {
   results.add("rest_particles", trial.particles);
 }
 
-/// Adds results of each bone, and of that along which the body is softest against what was asked
-/// for.
+/// Adds results of each bone, and of that along which the body is softest against the request.
 void add_planes(const Body& body, Findings& results) {
   const auto bones = stiffness_along_bones(body);
   if (bones.empty()) return;
