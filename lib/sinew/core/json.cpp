@@ -38,7 +38,7 @@ Json parsed_json(std::string_view text) {
 
 template <class Json>
 Json own_json(std::string_view text) {
-  constexpr int max_depth = 16;
+  constexpr int max_depth = 16;  // levels: sinew nests no deeper
   if (json_extent(text).depth > max_depth) return Json(Json::value_t::discarded);
   return parsed_json<Json>(text);
 }

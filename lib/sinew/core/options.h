@@ -120,7 +120,7 @@ struct MaterialOptions {
   double friction = 0;
 };
 
-inline constexpr std::size_t max_relaxation_branches = 4;
+inline constexpr std::size_t max_relaxation_branches = 4;  ///< room in kernel::Bonds
 
 /// Whether bonds of first and second neighbors, with factors, make the packed material isotropic.
 constexpr bool is_isotropic(const MaterialOptions& material, Packing packing) {
