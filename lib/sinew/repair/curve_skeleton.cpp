@@ -45,8 +45,8 @@ constexpr double small_part = 0.01;     // fraction of the largest part's volume
 constexpr double wrapped_faces = 6000;  // faces of CGAL's wrap, 2.5 to a square of its length
 constexpr int rounds = 3;               // passes of remeshing: more change little
 constexpr std::size_t max_contractions = 500;
-constexpr std::ptrdiff_t max_handles = 40;
-constexpr std::size_t max_parts = 40;  // each takes a tenth of a second
+constexpr std::ptrdiff_t max_handles = 40;  // sponges take minutes to contract
+constexpr std::size_t max_parts = 40;       // each takes a tenth of a second
 
 Vec3 vector_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 

@@ -21,6 +21,7 @@ struct SelfIntersections {
   std::vector<bool> faces;        ///< per face, whether it is in a pair found
 };
 
+/// Bound for long thin faces, of which all may meet each other.
 inline constexpr std::size_t max_pairs = 100000;
 
 /// Searches until `most` pairs are found or 2 10^6 pairs of faces whose boxes meet are tested (20
