@@ -43,6 +43,7 @@ double bytes_per_particle(const PackOptions& options) {
   return is_lattice(options.packing) ? bytes_on_sites : bytes_elsewhere;
 }
 
+// Particles have ids of 32 bits.
 constexpr double max_ids = std::numeric_limits<std::int32_t>::max();
 constexpr double farthest_origin = 1e4;  // lengths of the body
 constexpr double enough = 100;           // particles at a proposed radius
