@@ -130,6 +130,7 @@ std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& m
 
 namespace {
 
+// Smaller gaps are neither warned of nor need a preroll; the shift over the skeleton's size.
 constexpr double min_turn = pi / 180, min_shift_of_size = 1e-3;
 
 /// The difference between two motions of a bone.
