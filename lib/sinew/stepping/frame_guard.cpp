@@ -13,6 +13,8 @@
 namespace sinew {
 namespace {
 
+// At the largest divisor, what is still too fast is slowed instead. Divisors are held for all
+// frames up to the last one that a state lists.
 constexpr int max_divisor = 16, max_frame = 1 << 20;
 // What snaps out between two parts moves half a radius at half the limit of the step; what moves
 // farther may pass through its neighbors.
