@@ -228,7 +228,7 @@ std::array<VerdictItem, 5> verdict(std::span<const FrameMetrics> frames, const S
 
 std::string reasons_for_distrust(std::span<const FrameMetrics> frames, const Summary& summary,
                                  double radius, std::size_t particles) {
-  constexpr double max_inverted = 0.01;  // fraction of the particles
+  constexpr double max_inverted = 0.01;  // fraction: inverted_scale calls more poor
   const auto items = verdict(frames, summary, radius, particles);
   const auto &volume = items[0], &pose = items[1];
   const double count = summary.metrics[metric_index("inverted")].max,
