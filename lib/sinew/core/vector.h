@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors, matrices, rigid frames and rotations. Meters, seconds, kilograms unless stated
-// otherwise.
+// Vectors, matrices, rigid frames and rotations. Meters, seconds, kilograms but where stated.
 //
 //     const Vec3 now = carried(point, rest_frame, present_frame);
 #pragma once
