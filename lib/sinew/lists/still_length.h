@@ -9,8 +9,7 @@
 
 namespace sinew {
 
-/// Distance by which particles may move relative to each other, at least, before any of them
-/// yields.
+/// Least distance by which particles may move relative to each other before any of them yields.
 ///
 /// With e = (d - l) d / l0^2 of each bond, the tensor T of body/solid.h is a mean of (e - mean e) n
 /// n^T. If the two particles of every bond move relative to each other by g at most, e changes by
