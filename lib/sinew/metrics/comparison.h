@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compares two runs at the times that both have: the differences of all metrics, second minus
-// first.
+// Compares two runs at the times that both have: differences of all metrics, second minus first.
 //
 //     const RunComparison comparison = compare(std::move(first), std::move(second));
 //     write_file("compare.csv", comparison_csv(comparison));
