@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A picture with text: one or more panels side by side, and below them the caption and the color
-// bar.
+// A picture with text: panels side by side, and below them the caption and the color bar.
 //
 //     write_png(figure({{&painter, &snapshot}}, {.camera = camera}).pixels(), "bent.png");
 #pragma once
