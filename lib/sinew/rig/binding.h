@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which bones pull each particle, with what weight, and from where: determined once, in the rest
-// pose.
+// Which bones pull each particle, with what weight, and from where: determined once, at rest.
 //
 //     const Binding binding = bind_to_bones(rest, skeleton, options);
 //     for (const Influence& influence : binding.of(i)) use(influence.bone, influence.weight);
