@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps as the paper describes them, with its cells sorted again in every step: the readable
-// reference.
+// Steps as the paper describes them, its cells sorted again in every step: the readable reference.
 //
 //     CellStepper stepper(body, stepping, particles);
 //     stepper.advance(moments, sums);
