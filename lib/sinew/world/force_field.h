@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces that fill a region of space: wind, attraction, suction, a vortex; and the drag of a
-// medium.
+// Forces that fill a region of space: wind, attraction, suction, a vortex; the drag of a medium.
 //
 //     const ForceField wind{"wind", UniformAcceleration{{3, 0, 0}}, region, {}};
 //     const Vec3 force = field_force(wind, wind.scale.at(time), position, grain);

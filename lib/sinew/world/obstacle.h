@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solids that push particles out: a spring along the normal, damping of the approach, and dry
-// friction.
+// Solids that push particles out: a spring along the normal, damped approach and dry friction.
 //
 //     const Contact touch = contact(obstacle, obstacle.at(time, pose), position, velocity, radius);
 //     force += touch.force();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Dry friction between parts of a body that touch: a spring across each contact of particles, which
 // stretches as they slide and turns with them, and a damper beside it. Beyond mu times the force
-// that presses them together they slip. (Cundall and Strack, Geotechnique 29, 1979, doi
-// 10.1680/geot.1979.29.1.47.)
+// that presses them together they slip. (Cundall and Strack, Geotechnique 29, 1979,
+// doi 10.1680/geot.1979.29.1.47.)
 //
 //     SlidingContacts sliding(body);
 //     if (sliding.rub(i, j)) touches.push_back({j, ...});
