@@ -23,7 +23,7 @@ PrincipalAxes principal_axes(const Mat3& symmetric);
 /// The values of principal_axes alone, bit for bit.
 Vec3 eigenvalues(const Mat3& symmetric);
 
-/// The same by a closed form: faster, exact to the root of the precision where two are equal.
+/// The same by a closed form: faster; where two are equal, exact to the root of the precision only.
 Vec3 eigenvalues_in_closed_form(const Mat3& symmetric);
 
 /// The symmetric matrix whose square is the inverse; all eigenvalues must be positive.

@@ -19,7 +19,7 @@
 
 namespace sinew {
 
-/// fcc, hcp: closest packings; random: no order; conformal: fcc whose outer layer is the surface's.
+/// fcc, hcp: closest packings; random: no order; conformal: fcc, its outer layer along the surface.
 enum class Packing { fcc, hcp, random, conformal };
 /// The lattice that a packing is, or comes from.
 constexpr Packing lattice_of(Packing packing) {

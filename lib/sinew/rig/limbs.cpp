@@ -15,7 +15,7 @@
 namespace sinew {
 namespace {
 
-constexpr double min_reach = 1.7;  // length of a limb in widths of the place where it begins
+constexpr double min_reach = 1.7;  // reach of a limb in widths of the place where it begins
 constexpr double flat_end = 0.15;  // fraction of the width: points so near the farthest are the tip
 constexpr double min_trunk = 0.75;  // length of a limb between two forks, in their widths
 constexpr double min_both = 2.5;    // length of a body with limbs, in its widths
