@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sinew-view: starts ParaView on a state written here, or on sinew's own scripts. States and
-// scripts in a run's folder are for other machines: nothing in a folder from elsewhere is executed.
+// sinew-view: starts ParaView on a state written here. States in a run's folder are for other
+// machines: nothing in a folder from elsewhere is opened or executed.
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include <sinew/core/file.h>
@@ -21,6 +27,7 @@
 #include <sinew/display/display.h>
 #include <sinew/io/paraview/view_state.h>
 #include <sinew/run/run_folder.h>
+#include <sinew/run/run_record.h>
 #include "command/command.h"
 
 namespace {
@@ -31,7 +38,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string folder, picture;
   ViewOptions view;
-  std::vector<int> size;
+  std::vector<int> size = {1920, 1000};
   bool live = false;
 };
 
@@ -53,37 +60,16 @@ void declare(OptionList& list, Options& options) {
       .type_name("FILE.png");
 }
 
-/// The options of the script.
-std::vector<std::string> words_of(const Options& options) {
-  std::vector<std::string> words;
-  const auto add = [&](const char* name, const std::string& value) {
-    if (!value.empty()) words.insert(words.end(), {name, value});
-  };
-  const ViewOptions& view = options.view;
-  add("--array", view.array);
-  add("--cut", view.cut);
-  if (view.forces) words.push_back("--forces");
-  if (view.forces && !view.forces->empty()) words.push_back(*view.forces);
-  add("--picture", options.picture.empty() ? "" : fs::absolute(options.picture).string());
-  if (view.time) add("--time", number_text(*view.time));
-  if (!options.size.empty()) {
-    words.push_back("--size");
-    for (const int pixels : options.size) words.push_back(std::to_string(pixels));
-  }
-  return words;
-}
-
-/// A text that a shell would split into these words.
-std::string quoted(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_quoted(word);
-  return text;
-}
-
 /// Empty where the environment lacks it.
 std::string from_environment(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
+}
+
+/// Puts a folder in front of those that a variable lists.
+void add_place(const char* variable, const fs::path& folder) {
+  const std::string given = from_environment(variable);
+  setenv(variable, (given.empty() ? folder.string() : folder.string() + ':' + given).c_str(), 1);
 }
 
 fs::path program_named(const std::string& name) {
@@ -105,8 +91,8 @@ std::vector<fs::path> private_places() {
   return places;
 }
 
-/// Whether pvbatch and live.py can run. Debian's ParaView has its Python in a separate package;
-/// others include it.
+/// Whether pvbatch and plugins in Python can run. Debian's ParaView has its Python in a separate
+/// package; others include it.
 bool find_python(const fs::path& program) {
   std::error_code none;
   const std::string given = from_environment("PYTHONPATH");
@@ -118,8 +104,7 @@ bool find_python(const fs::path& program) {
     return true;
   for (const fs::path& place : private_places())
     if (fs::exists(place / "paraview", none)) {
-      setenv("PYTHONPATH", (given.empty() ? place.string() : place.string() + ':' + given).c_str(),
-             1);
+      add_place("PYTHONPATH", place);
       return true;
     }
   return false;
@@ -136,13 +121,15 @@ void check_screen() {
         "there is no screen for ParaView's window; draw with --picture FILE.png or sinew render");
 }
 
-/// Both in the build and where sinew is installed.
-fs::path own_script(const std::string& name) {
-  const fs::path program = this_program();
-  fs::path script = program.parent_path().parent_path() / "share/sinew" / name;
-  if (!fs::exists(script))
-    throw bad_input(Place{script.string()}, "is missing", "install all files of sinew");
-  return script;
+/// Both in the build and where sinew-paraview is installed.
+fs::path folder_of_plugin() {
+  fs::path folder = this_program().parent_path().parent_path() / "share/sinew/paraview";
+  std::error_code none;
+  if (!fs::exists(folder / "sinew_paraview.py", none))
+    throw Error(Exit::bad_input,
+                "a live view needs sinew's plugin for ParaView; install it with: apt-get install "
+                "./sinew-paraview_*.deb");
+  return folder;
 }
 
 /// Returns only by throwing.
@@ -178,13 +165,44 @@ void check_picture(const std::string& picture) {
   const NewFile can_be_written(picture);
 }
 
-/// A folder of its own below the system's for temporary files, for a run that cannot be written to.
+/// A folder of its own below the system's for temporary files.
 fs::path temporary_folder() {
   std::string folder = (fs::temp_directory_path() / "sinew-view-XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr)
     throw Error(Exit::not_written, folder + ": " + std::generic_category().message(errno) +
                                        "; set TMPDIR to a folder that can be written to");
   return folder;
+}
+
+/// The same, removed at the end.
+class Workplace {
+ public:
+  Workplace() : path_(temporary_folder()) {}
+  ~Workplace() {
+    std::error_code failed;
+    fs::remove_all(path_, failed);
+  }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  fs::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+/// Runs a program to its end; returns whether it has ended well.
+bool run_program(const fs::path& program, std::vector<std::string> words) {
+  words.insert(words.begin(), program.string());
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    become(program, words);
+  }
+  std::signal(SIGINT, SIG_IGN);  // Ctrl-C ends the child, after which the workplace is removed
+  int status = 0;
+  while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 /// Chooses by "paraview version 5.11.0", which the program prints.
@@ -230,40 +248,70 @@ Exit open_window(const RunFolder& folder, const Options& options, const Common& 
   return become(program, {program.string(), "--state=" + fs::absolute(state).string()});
 }
 
-Exit follow(const Options& options) {
-  const bool window = options.picture.empty();
-  const fs::path program = program_named(window ? "paraview" : "pvbatch");
-  if (!find_python(program))
-    throw Error(Exit::not_written,
-                std::string("a live view needs ParaView's Python; install it with: ") +
-                    how_to_get_python + "; or look at the frames so far: sinew view " +
-                    shell_quoted(options.folder));
-  const fs::path script = own_script("live.py");
-  std::vector<std::string> words = words_of(options);
-  if (!window) {
-    ensure_display();
-    unsetenv("SINEW_VIEW");
-    words.insert(words.begin(), {program.string(), script.string()});
-    return become(program, words);
-  }
-  check_screen();
-  setenv("SINEW_VIEW", quoted(words).c_str(), 1);
-  return become(program, {program.string(), script.string()});
+void refuse_without_python(const fs::path& program, Exit exit, const std::string& what) {
+  if (!find_python(program)) throw Error(exit, what + how_to_get_python);
 }
 
-Exit draw(const RunFolder& folder, const Options& options) {
+/// Waits for the state that a run leaves beside its first frame.
+void wait_for_first_frame(const RunFolder& folder) {
+  constexpr int patience = 600;  // tenths of a second
+  std::error_code none;
+  for (int waited = 0; !fs::exists(folder.view(), none); ++waited) {
+    if (waited == patience || status_of(folder) != "running") return refuse_without_frames(folder);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+/// Opens the newest frame, which is replaced as soon as there is another.
+Exit follow(const RunFolder& folder, Options options) {
+  const fs::path program = program_named("paraview");
+  refuse_without_python(program, Exit::bad_input,
+                        "a live view needs ParaView's Python; look at the frames so far: sinew "
+                        "view " +
+                            shell_quoted(options.folder) + "; or install it with: ");
+  const fs::path plugin = folder_of_plugin();
+  check_screen();
+  wait_for_first_frame(folder);
+  options.view.live = true;
+  const Workplace work;
+  write_file(work / "live.pvsm",
+             view_state(shown_run(folder.path, options.view), options.view, links_for(program)));
+  add_place("PYTHONPATH", plugin / "debian12");
+  add_place("PV_PLUGIN_PATH", plugin);
+  const bool is_well = run_program(program, {"--state=" + (work / "live.pvsm").string()});
+  return is_well ? Exit::done : Exit::bad_input;
+}
+
+constexpr const char* drawing = R"(import sys
+from paraview.simple import *
+state, picture, width, height = sys.argv[1:]
+LoadState(state)
+SaveScreenshot(picture, GetLayout(), ImageResolution=[int(width), int(height)], SeparatorWidth=0)
+)";
+
+Exit draw(const RunFolder& folder, Options options) {
   const fs::path program = program_named("pvbatch");
-  if (!find_python(program))
-    throw Error(Exit::not_written,
-                "ParaView draws pictures with its Python only; draw with: sinew render " +
-                    shell_quoted(options.folder) + ", or install it with: " + how_to_get_python);
-  shown_run(folder.path,
-            options.view);  // refuses what cannot be shown, in fewer words than scripts
+  refuse_without_python(program, Exit::not_written,
+                        "ParaView draws pictures with its Python only; draw with: sinew render " +
+                            shell_quoted(options.folder) + ", or install it with: ");
+  if (options.live) {
+    wait_for_first_frame(folder);
+    options.view.time = std::numeric_limits<double>::max();
+  }
+  options.view.aspect = options.size[0] / 2.0 / options.size[1];
+  const Workplace work;
+  write_file(work / "view.pvsm", view_state(shown_run(folder.path, options.view), options.view));
+  write_file(work / "draw.py", drawing);
   ensure_display();
-  unsetenv("SINEW_VIEW");
-  std::vector<std::string> words = words_of(options);
-  words.insert(words.begin(), {program.string(), own_script("view.py").string()});
-  return become(program, words);
+  const fs::path drawn = work / "drawn.png";
+  if (!run_program(program,
+                   {(work / "draw.py").string(), (work / "view.pvsm").string(), drawn.string(),
+                    std::to_string(options.size[0]), std::to_string(options.size[1])}) ||
+      !fs::exists(drawn))
+    throw not_written(options.picture, "ParaView has drawn nothing",
+                      "draw with: sinew render " + shell_quoted(options.folder));
+  write_file(options.picture, read_file(drawn));
+  return Exit::done;
 }
 
 Exit view(const Options& options, const Common& common) {
@@ -271,9 +319,8 @@ Exit view(const Options& options, const Common& common) {
   check(options, folder);
   check_picture(options.picture);
   if (!options.picture.empty()) refuse_file_of_run(options.picture);
-  setenv("SINEW_RUN", fs::absolute(folder.path).c_str(), 1);
-  if (options.live) return follow(options);
-  return options.picture.empty() ? open_window(folder, options, common) : draw(folder, options);
+  if (!options.picture.empty()) return draw(folder, options);
+  return options.live ? follow(folder, options) : open_window(folder, options, common);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ own_mesh() {
 check_run() {
   local file frames
   in_clone "build/bin/sinew info $1 --verify"
-  for file in report.html particles.pvd surface.pvd bones.pvd view.py view.pvsm; do
+  for file in report.html particles.pvd surface.pvd bones.pvd view.pvsm; do
     [ -s "$root$1/$file" ] || fail "$1/$file is missing"
   done
   for file in "$root$1"/pictures/*.png; do

@@ -305,7 +305,7 @@ def links(trial):
     """Links planted where a command will write."""
     run = trial.small_run()
     names = ["run.json", "log.txt", "bones.csv", "metrics.csv", "metrics.json", "report.html", "checksums.sfv", "body.vtu",
-             "scene.yaml", "view.pvsm", "view.py", "particles.pvd", "particles/particles_000001.vtu", "checkpoint/a.bin"]
+             "scene.yaml", "view.pvsm", "particles.pvd", "particles/particles_000001.vtu", "checkpoint/a.bin"]
     for name in trial.chance.sample(names, 4):
         place = run / name
         if trial.chance.random() < 0.6:

@@ -82,7 +82,7 @@ class Run:
 
 def files_of(out):
     """All that a run tells, but when, where and how it was done (body.vtu: how long filling took)."""
-    beside = {"run.json", "log.txt", ".lock", "view.py", "live.py", "view.pvsm", "body.vtu", "checkpoint/a.bin",
+    beside = {"run.json", "log.txt", ".lock", "view.pvsm", "body.vtu", "checkpoint/a.bin",
               "checkpoint/b.bin"}
     files = {str(file.relative_to(out)): file.read_bytes() for file in out.rglob("*") if file.is_file()}
     if sums := files.get("checksums.sfv"):

@@ -8,7 +8,6 @@
 #include <map>
 #include <thread>
 
-#include <sinew/io/paraview/view_script.h>
 #include <sinew/io/paraview/view_state.h>
 #include <sinew/io/series.h>
 #include "synthetic_run.h"
@@ -24,7 +23,6 @@ void write(const std::filesystem::path& folder, Encoding encoding, int count, do
   };
   std::filesystem::create_directories(folder);
   write_body(folder / "body.vtu", run.body(), encoding);
-  write_view_script(folder);
   Series particles(folder, format("particles")), surface(folder, format("surface"));
   Series bones(folder, format("bones")), frames(folder, format("frames"));
   for (int step = 0; step < count; ++step) {
@@ -35,6 +33,7 @@ void write(const std::filesystem::path& folder, Encoding encoding, int count, do
     surface.add(run.surface(moment));
     bones.add(run.bones(moment));
     frames.add(run.frames(moment));
+    if (step == 0) write_view_state(folder, folder / "view.pvsm");
     std::this_thread::sleep_for(std::chrono::duration<double>(pause));
   }
   for (Series* series : {&particles, &surface, &bones, &frames}) series->close();

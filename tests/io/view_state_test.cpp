@@ -6,7 +6,6 @@
 #include <set>
 
 #include <sinew/io/detail/xml.h>
-#include <sinew/io/paraview/view_script.h>
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>
 #include "support/expect_error.h"
@@ -80,6 +79,12 @@ class ViewState : public Scratch {
     return found;
   }
 };
+
+std::size_t count_of(const std::string& text, std::string_view part) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
 
 TEST_F(ViewState, ShowsABodyFarAwayFromAPointNearIt) {
   write_run(2, {-1048576, 0, 0});
@@ -242,18 +247,38 @@ TEST_F(ViewState, AFolderWithoutFramesIsRefused) {
   test::expect_bad_input([&] { shown_run(folder, {}); }, {"particles.pvd"});
 }
 
-using ViewScript = Scratch;
+TEST_F(ViewState, ALiveViewFollowsTheSeriesInPlaceOfReadingThem) {
+  write_run(1);
+  const ViewOptions live{.forces = "", .live = true};
+  const std::string text = state(live);
+  EXPECT_FALSE(contains(text, "PVDReader"));
+  EXPECT_EQ(values(text, "SinewSeries", "FileName").at(0), (folder / "run.json").string());
+  EXPECT_EQ(values(text, "SinewSeries", "Series").at(0), "particles");
+  EXPECT_EQ(values(text, "SinewSeries", "Vectors").at(0), "force_pair");
+  EXPECT_EQ(values(text, "Glyph", "ScaleFactor").at(0), "1");
+  EXPECT_EQ(values(text, "SinewSeries", "Colors").at(0), "displacement");
+  const auto distance = [&](const std::string& of) {
+    const auto eye = values(of, "RenderView", "CameraPosition");
+    const auto focus = values(of, "RenderView", "CameraFocalPoint");
+    double squared = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      squared += std::pow(std::stod(eye.at(k)) - std::stod(focus.at(k)), 2);
+    return std::sqrt(squared);
+  };
+  EXPECT_GT(distance(text), 1.15 * distance(state()));  // there is room to bend
+}
 
-TEST_F(ViewScript, KnowsTheFolderItWasLeftIn) {
-  const auto odd = folder / "a \"run\" \\ of Ärms";
-  std::filesystem::create_directories(odd);
-  write_view_script(odd);
-  for (const char* name : {"view.py", "live.py"}) {
-    const std::string text = text_of(odd / name);
-    EXPECT_TRUE(contains(text, "a \\\"run\\\" \\\\ of Ärms\"\n")) << name;
-    EXPECT_TRUE(contains(text, "Point Gaussian")) << name;  // it is whole: what both share is there
-    EXPECT_FALSE(contains(text, "from look")) << name;
-  }
+/// Here the series of skinning alone.
+TEST_F(ViewState, SeriesWithoutALookAreOpenedAndHidden) {
+  write_run(2);
+  const std::size_t shown = count_of(state(), "Representation\"");
+  const SyntheticRun run;
+  Series skin(folder, {Encoding::zlib, false, "skin_lbs", SyntheticRun::radius});
+  for (const int k : {0, 1}) skin.add(run.surface({SyntheticRun::half_turn * k, k}));
+  skin.close();
+  const std::string text = state();
+  EXPECT_TRUE(contains(text, "/skin_lbs.pvd"));
+  EXPECT_EQ(count_of(text, "Representation\""), shown);
 }
 
 }  // namespace sinew::view_state_test

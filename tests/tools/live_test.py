@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""live_test.py MAKE_SERIES MODULES: ParaView follows a run while it is written.
+"""live_test.py BIN SOURCE MAKE_SERIES MODULES: ParaView follows a run while it is written, by the plugin's live source.
 
 MODULES is the folder filled by get_paraview_python.sh."""
+import json
 import os
 import re
 import struct
@@ -14,8 +15,36 @@ import unittest
 import zlib
 from pathlib import Path
 
-MAKE_SERIES, MODULES = (str(Path(place).resolve()) for place in sys.argv[1:3])
+BIN, SOURCE, MAKE_SERIES, MODULES = (Path(place).resolve() for place in sys.argv[1:5])
 PARAVIEW = Path(__file__).resolve().parent / "paraview.sh"
+PYTHON = str(MODULES / "usr/lib/python3/dist-packages")
+SERIES = {name: {} for name in ("particles", "surface", "bones", "frames")}
+
+# What ParaView's window does with the state that sinew view --live opens.
+FOLLOW = """
+import sys, time
+sys.path.insert(0, sys.argv[1])
+import sinew_paraview
+from paraview.simple import *
+LoadPlugin(sinew_paraview.__file__, ns=globals())
+LoadState(sys.argv[2])
+frames, shown = int(sys.argv[3]), 0
+sources = [source for source in GetSources().values() if source.GetXMLName() == "SinewSeries"]
+end = time.monotonic() + 60
+while shown < frames and time.monotonic() < end:
+    if shown and not any([source.GetClientSideObject().GetNeedsUpdate() for source in sources]):
+        time.sleep(0.1)
+        continue
+    for source in sources:
+        source.GetClientSideObject().Modified()
+        source.MarkModified(source.SMProxy)
+    RenderAllViews()
+    shown += 1
+    times = {servermanager.Fetch(source).GetFieldData().GetArray("TimeValue").GetValue(0) for source in sources}
+    points = GetColorTransferFunction("displacement").RGBPoints
+    print("frame", *times, "colors", points[0], points[-4], flush=True)
+SaveScreenshot(sys.argv[4], GetLayout(), ImageResolution=[800, 400], SeparatorWidth=0)
+"""
 
 
 def pixels_of(path):
@@ -34,91 +63,101 @@ def pixels_of(path):
 class Live(unittest.TestCase):
     def setUp(self):
         # Open MPI's daemon may still be removing its folder there.
-        self.scratch = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        scratch = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.addCleanup(scratch.cleanup)
         # ParaView begins Open MPI, which removes the folder of its sessions when it ends, also from under
         # another that begins.
-        os.environ["OMPI_MCA_orte_tmpdir_base"] = self.scratch.name
+        os.environ["OMPI_MCA_orte_tmpdir_base"] = scratch.name
         os.environ["PMIX_MCA_gds"] = "hash"  # the store in shared memory fails where others start at the same time
-        self.run_folder = Path(self.scratch.name) / "a run"
-        self.addCleanup(self.scratch.cleanup)
+        self.folder = Path(scratch.name)
+        self.run_folder, self.picture = self.folder / "a run", self.folder / "live.png"
+        self.run_folder.mkdir()
 
-    def start_run(self, frames, pause):
+    def start_run(self, frames, pause, status="running"):
+        self.record(status)
         run = subprocess.Popen([MAKE_SERIES, self.run_folder, "zlib", str(frames), str(pause)])
         self.addCleanup(run.wait)
         self.addCleanup(run.kill)
-        while not (self.run_folder / "live.py").exists():
-            time.sleep(0.01)
         return run
 
-    def follow(self, *options):
-        return subprocess.run([PARAVIEW, MODULES, self.run_folder / "live.py", *options],
+    def record(self, status):
+        text = json.dumps({"program": "sinew", "status": status, "series": SERIES})
+        (self.run_folder / "run.json").write_text(text)
+
+    def view(self, *words, **changed):
+        environment = {**os.environ, "PYTHONPATH": PYTHON, "DISPLAY": ":77", "TMPDIR": str(self.folder), **changed}
+        return subprocess.run([BIN / "sinew", "view", self.run_folder, *words], capture_output=True, text=True,
+                              timeout=250, env=environment)
+
+    def state(self):
+        """What ParaView is started on."""
+        programs = self.folder / "programs"
+        programs.mkdir()
+        (programs / "paraview").write_text(f'#!/bin/sh\n[ "$1" = --version ] || cp "${{1#--state=}}" "{self.folder}/live.pvsm"\n')
+        (programs / "paraview").chmod(0o755)
+        done = self.view("--live", PATH=f"{programs}:/usr/bin:/bin")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.folder / "live.pvsm"
+
+    def follow(self, frames):
+        state, script = self.state(), self.folder / "follow.py"
+        script.write_text(FOLLOW)
+        done = subprocess.run([PARAVIEW, MODULES, script, SOURCE / "tools/paraview", state, str(frames), self.picture],
                               capture_output=True, text=True, timeout=250)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("rror", done.stderr)
+        lines = re.findall("frame (.*) colors (.*)", done.stdout)
+        return [list(map(float, " ".join(line).split())) for line in lines]
 
     def test_follows_a_growing_run_and_leaves_a_picture(self):
-        run = self.start_run(5000, 0.05)
-        picture = self.run_folder / "live.png"
-        done = self.follow("--frames", "4", "--size", "800", "400", "--picture", str(picture))
+        """All series have the same moment, and the scale of colors grows with them."""
+        run = self.start_run(2000, 0.05)
+        rows = self.follow(4)
         self.assertIsNone(run.poll(), "the run ended before its viewer")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        shown = [int(number) for number in re.findall(r"^frame (\d+)$", done.stdout, re.MULTILINE)]
-        self.assertEqual(len(shown), 4)
-        self.assertEqual(shown, sorted(set(shown)))
-        self.assertNotIn("rror", done.stderr)
-        width, height, channels, bytes_ = pixels_of(picture)
+        self.assertEqual([len(row) for row in rows], [3] * 4)  # the time of all, and the ends of the scale
+        times, highest = [row[0] for row in rows], [row[2] for row in rows]
+        self.assertEqual(times, sorted(set(times)))
+        self.assertEqual(highest, sorted(highest))
+        self.assertLess(highest[0], highest[-1])
+        width, height, channels, bytes_ = pixels_of(self.picture)
         self.assertEqual((width, height), (800, 400))
         self.assertGreater(len(set(bytes_)), 100)
 
-    def test_a_finished_run_shows_its_last_frame_on_any_display(self):
-        self.start_run(3, 0).wait()
-        (self.run_folder / "run.json").write_text('{"program": "sinew", "status": "finished"}')
-        picture = self.run_folder / "live.png"
-        environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages",
-                       "OMPI_MCA_orte_tmpdir_base": str(self.run_folder)}
-        number = str(100 + os.getpid() % 50000)  # not the first that is free, which another display may be leaving
-        done = subprocess.run(["xvfb-run", "-a", "-n", number, "pvbatch", self.run_folder / "live.py", "--frames", "2",
-                               "--size", "400", "200", "--picture", str(picture)], env=environment,
-                              capture_output=True, text=True, timeout=250)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("frame 2\nthe run has ended, 1 shown; view.py", done.stdout)
-        self.assertNotIn("rror", done.stderr)
-        self.assertEqual(pixels_of(picture)[:2], (400, 200))
+    def test_a_finished_run_shows_its_last_frame(self):
+        self.start_run(3, 0, "finished").wait()
+        self.assertEqual([row[0] for row in self.follow(1)], [1])
 
     def test_without_a_display_it_says_how_to_draw(self):
         self.start_run(3, 0).wait()
-        environment = {**os.environ, "PYTHONPATH": MODULES + "/usr/lib/python3/dist-packages",
-                       "OMPI_MCA_orte_tmpdir_base": str(self.run_folder)}
-        environment.pop("DISPLAY", None)
-        for script in ("live.py", "view.py"):
-            done = subprocess.run(["pvbatch", self.run_folder / script], env=environment, capture_output=True,
-                                  text=True, timeout=250)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertEqual(done.stderr.strip(), f"{script}: there is no screen; draw without one by: xvfb-run -a "
-                                                  f"pvbatch {script} --picture FILE.png")
+        done = self.view("--live", DISPLAY="", WAYLAND_DISPLAY="")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertRegex(done.stderr, "^sinew: there is no screen.*--picture FILE.png.*\n$")
 
-    def test_a_run_that_is_slow_leaves_a_picture_and_no_error_of_the_display(self):
+    def test_a_run_that_is_slow_leaves_a_picture_of_its_newest_frame(self):
         self.start_run(3, 0).wait()
-        (self.run_folder / "run.json").write_text('{"program": "sinew", "status": "running"}')
-        picture = self.run_folder / "live.png"
-        done = self.follow("--frames", "2", "--patience", "2", "--size", "400", "200", "--picture", str(picture))
-        self.assertEqual(done.stderr.strip(), "live.py: no further frame within 2 s, 1 shown")
-        self.assertEqual(done.returncode, 2)
-        self.assertTrue(picture.exists())
+        drawn = []
+        for live in (["--live"], ["--time", "0"]):
+            done = self.view(*live, "--picture", self.picture, "--size", "400", "200")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            drawn.append(pixels_of(self.picture))
+        self.assertEqual(drawn[0][:2], (400, 200))
+        self.assertTrue(drawn[0] != drawn[1])
 
     def test_a_picture_that_is_not_written_ends_with_its_code(self):
         self.start_run(3, 0).wait()
-        for words, code, what in ((["--picture", "nowhere/a.png"], 4, "nowhere/a.png: cannot be written (No such file"),
-                                  (["--array", "nonsense"], 2, "no array 'nonsense'; they have "),
-                                  (["--size", "0", "0"], 2, "give 64 to 8192 pixels")):
-            done = self.follow("--patience", "2", *words)
+        for words, code, what in ((["--picture", "nowhere/a.png"], 4, "nowhere/a.png"),
+                                  (["--picture", self.picture, "--array", "nonsense"], 2, "no array 'nonsense'"),
+                                  (["--picture", self.picture, "--size", "0", "0"], 2, "64")):
+            done = self.view("--live", *words)
             self.assertEqual(done.returncode, code, done.stderr)
             self.assertIn(what, done.stderr.splitlines()[-1])
 
-    def test_a_run_that_ends_is_no_failure_of_the_frames_shown(self):
-        self.start_run(3, 0).wait()
-        done = self.follow("--frames", "2", "--patience", "2")
-        self.assertIn("no further frame within 2 s, 1 shown", done.stderr)
-        self.assertNotEqual(done.returncode, 0)
+    def test_a_run_that_ended_without_a_frame_is_told(self):
+        self.record("failed")
+        done = self.view("--live", "--picture", self.picture)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, "^sinew: .*has no frames; see why in .*log.txt.*\n$")
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["live_test", "-v"])
+    unittest.main(argv=["live_test", "-v", *sys.argv[5:]])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""pvbatch paraview_test.py DIR [TESTS]: what ParaView itself makes of the run in DIR. Works on any run."""
+"""pvbatch paraview_test.py BIN DIR [TESTS]: what ParaView itself makes of the run in DIR, and `sinew view` in the folder BIN.
+Works on any run."""
 import functools
 import math
 import os
@@ -15,7 +16,7 @@ from paraview.simple import *
 from vtkmodules.vtkCommonCore import vtkDataArray
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-RUN = os.path.abspath(sys.argv[1])
+VIEW, RUN = os.path.abspath(sys.argv[1] + "/sinew-view"), os.path.abspath(sys.argv[2])
 
 # Per series: VTK's cell type, cells per point, and each array's place, unit and component names.
 X, Q = "XYZ", "WXYZ"
@@ -209,11 +210,14 @@ def pixels_of(path):
 
 @functools.cache
 def picture(*arguments):
-    """What view.py draws."""
+    """What sinew view draws."""
+    return drawn_by_view(RUN, *arguments)
+
+
+def drawn_by_view(run, *arguments):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
-        subprocess.run(["pvbatch", os.path.join(RUN, "view.py"), "--picture", path,
-                        "--size", "800", "400", *arguments], check=True, cwd="/")
+        subprocess.run([VIEW, run, "--picture", path, "--size", "800", "400", *arguments], check=True, cwd="/")
         return pixels_of(path)
 
 
@@ -337,10 +341,7 @@ class Cells(unittest.TestCase):
             away = os.path.join(work, "run")
             shutil.copytree(RUN, away)
             os.remove(os.path.join(away, "volume.pvd"))
-            path = os.path.join(work, "picture.png")
-            subprocess.run(["pvbatch", os.path.join(away, "view.py"), "--picture", path, "--size", "800", "400"],
-                           check=True, cwd="/")
-            return pixels_of(path)
+            return drawn_by_view(away)
 
     @staticmethod
     def roughness(drawn):
@@ -357,4 +358,4 @@ def blue_to_yellow(pixel):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["paraview_test", "-v", *sys.argv[2:]])
+    unittest.main(argv=["paraview_test", "-v", *sys.argv[3:]])

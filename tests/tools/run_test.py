@@ -42,7 +42,7 @@ class Commands(SmallRun):
     def test_run_leaves_everything_behind(self):
         sinew("run", self.scene, "-o", self.out, "--no-movie", check=0)
         for name in ["scene.yaml", "run.json", "log.txt", "body.vtu", "metrics.csv", "metrics.json",
-                     "report.html", "view.pvsm", "view.py", "live.py", "pictures/contact_sheet.png"]:
+                     "report.html", "view.pvsm", "pictures/contact_sheet.png"]:
             self.assertGreater((self.out / name).stat().st_size, 0, name)
         for name in SERIES:
             self.assertEqual(len(list((self.out / name).glob("*.vtu"))), 13, name)

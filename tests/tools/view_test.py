@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -158,7 +159,7 @@ class View(unittest.TestCase):
     @unittest.skipIf(Path("/usr/lib/python3/dist-packages/paraview").exists(), "ParaView's Python is installed")
     def test_what_needs_paraviews_python_says_so_in_a_line(self):
         installed = "/usr/bin:/bin"  # Debian's ParaView, whose Python is another package
-        self.assert_one_line(self.start(self.run_folder, "--live", PATH=installed), 4,
+        self.assert_one_line(self.start(self.run_folder, "--live", PATH=installed), 2,
                              "a live view needs ParaView's Python", "python3-paraview", "sinew view '")
         self.assert_one_line(self.start(self.run_folder, "--picture", "a.png", PATH=installed), 4,
                              "sinew render '", "python3-paraview")
@@ -167,12 +168,43 @@ class View(unittest.TestCase):
         picture = self.folder / "it's drawn.png"
         done = self.start(self.run_folder, "--picture", picture, "--size", "400", "300", "--forces", "force_bone",
                           "--cut", "x", PATH="/usr/bin:/bin", DISPLAY=None, PYTHONPATH=PYTHON)
-        self.assertEqual(done.returncode, 2, done.stderr)  # beside this copy lie no scripts
-        done = subprocess.run([BIN / "sinew", "view", self.run_folder, "--picture", picture, "--size", "400", "300",
-                               "--forces", "force_bone", "--cut", "x"], capture_output=True, text=True, timeout=200,
-                              env={**os.environ, "PYTHONPATH": PYTHON, "DISPLAY": ""})
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(picture.read_bytes()[16:24], bytes([0, 0, 1, 144, 0, 0, 1, 44]))
+
+    def test_a_live_view_opens_the_source_of_the_plugin(self):
+        self.assert_one_line(self.start(self.run_folder, "--live", PYTHONPATH=PYTHON), 2, "install ./sinew-paraview")
+        plugin = self.folder / "share/sinew/paraview"
+        plugin.parent.mkdir(parents=True)
+        plugin.symlink_to(SOURCE / "tools/paraview")
+        (self.programs / "paraview").write_text('#!/bin/sh\necho "$PV_PLUGIN_PATH"\ncat "${1#--state=}"\n')
+        before = self.state.read_bytes()
+        done = self.start(self.run_folder, "--live", "--forces", PYTHONPATH=PYTHON)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((Path(done.stdout.splitlines()[0]) / "sinew_paraview.py").is_file())
+        for part in ('type="SinewSeries"', f'value="{self.run_folder}/run.json"', 'value="force_pair"'):
+            self.assertIn(part, done.stdout)
+        self.assertNotIn("PVDReader", done.stdout)
+        self.assertEqual(self.state.read_bytes(), before)  # which opens without the plugin
+        self.assertEqual(list(self.folder.glob("sinew-view-*")), [])
+
+    def test_a_live_view_waits_for_a_run_that_has_just_begun(self):
+        (self.run_folder / "run.json").write_text('{"program": "sinew", "status": "running"}')
+        for name in ("view.pvsm", "particles.pvd"):
+            (self.run_folder / name).rename(self.folder / name)
+        picture = self.folder / "a.png"
+        going = subprocess.Popen([BIN / "sinew-view", self.run_folder, "--live", "--picture", picture, "--size", "400", "300"],
+                                 env={**os.environ, "PYTHONPATH": PYTHON})
+        self.addCleanup(going.kill)
+        time.sleep(0.5)
+        self.assertIsNone(going.poll())
+        for name in ("particles.pvd", "view.pvsm"):
+            (self.folder / name).rename(self.run_folder / name)
+        self.assertEqual(going.wait(200), 0)
+        self.assertTrue(picture.exists())
+        (self.run_folder / "run.json").write_text('{"program": "sinew", "status": "failed"}')
+        for name in ("view.pvsm", "particles.pvd", "particles/particles_000000.vtu"):
+            (self.run_folder / name).unlink()
+        self.assert_one_line(self.start(self.run_folder, "--live", "--picture", picture, PYTHONPATH=PYTHON), 2, "no frames", "log.txt")
 
     def test_nothing_that_lies_in_the_folder_is_run(self):
         ran = self.folder / "it ran"

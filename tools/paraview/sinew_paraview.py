@@ -25,7 +25,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 if os.path.dirname(os.path.abspath(__file__)) not in sys.path:
     sys.path.append(os.path.dirname(os.path.abspath(__file__)))
 from sinew_parts import deformation, packing, run_files
-from sinew_parts.common import Refused, ask_for_times, errors_shown, publish_times, requested_time, texts, updated_to, vtk_array
+from sinew_parts.common import Refused, ask_for_times, errors_shown, publish_times, requested_time, rescale_colors, texts, updated_to, vtk_array
 
 
 def choice(name, words, default=0):
@@ -122,11 +122,15 @@ class SinewRun(VTKPythonAlgorithmBase):
 @smhint.xml('<LiveSource interval="500" />')
 class SinewSeries(VTKPythonAlgorithmBase):
     """The newest frame of one series of a run, as soon as it is written: what `sinew view --live` shows. What is mere rounding
-    is zero. An array of vectors may be given as arrows, of which the largest so far has a length."""
+    is zero. An array of vectors may be given as arrows, of which the largest so far has a length; the colors of an array may
+    grow with it. All sources of a run have the same moment, which goes on with that of its particles."""
+    _moments = {}
 
     def __init__(self):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid")
-        self._file, self._name, self._vectors, self._length, self._largest, self._seen = None, "", "", 0.0, 0.0, None
+        self._file, self._name, self._vectors, self._length, self._largest = None, "", "", 0.0, 0.0
+        self._colors, self._range = "", (0.0, 0.0)
+        self._seen = self._shown = None
 
     @smproperty.stringvector(name="FileName")
     @smdomain.filelist()
@@ -150,23 +154,40 @@ class SinewSeries(VTKPythonAlgorithmBase):
         self._length = length
         self.Modified()
 
+    @smproperty.stringvector(name="Colors", default_values="")
+    def SetColors(self, name):
+        self._colors = name or ""
+        self.Modified()
+
+    @smproperty.doublevector(name="ColorRange", default_values=[0.0, 0.0])
+    def SetColorRange(self, low, high):
+        self._range = low, high
+        self.Modified()
+
     def GetNeedsUpdate(self):
         """Whether there are new frames; ParaView asks twice a second."""
         with contextlib.suppress(Refused):
-            if run_files.state_of(run_files.folder_of_run(self._file)) != self._seen:
+            if self._moment(self._name == "particles") != self._shown:
                 self.Modified()
                 return True
         return False
 
+    def _moment(self, goes_on):
+        folder = run_files.folder_of_run(self._file)
+        state = run_files.state_of(folder)
+        if folder not in self._moments or (goes_on and state != self._seen):
+            self._moments[folder], self._seen = run_files.newest_time(folder), state
+        return self._moments[folder]
+
     def RequestData(self, request, inInfo, outInfo):
         with errors_shown(self):
-            folder = run_files.folder_of_run(self._file)
-            self._seen = run_files.state_of(folder)
-            found = run_files.newest_frame(folder, self._name)
+            self._shown = self._moment(False)
+            found = run_files.whole_frame(run_files.folder_of_run(self._file), self._name, self._shown)
             if found is None:  # a run that begins anew removes its files
                 return 1
             run_files.without_rounding(found)
             self._add_arrows(found.GetPointData())
+            self._grow_colors(found.GetPointData())
             vtkUnstructuredGrid.GetData(outInfo, 0).ShallowCopy(found)
         return 1
 
@@ -176,6 +197,20 @@ class SinewSeries(VTKPythonAlgorithmBase):
             values = vtk_to_numpy(vectors).astype(float)
             self._largest = max(self._largest, numpy.linalg.norm(values, axis=1).max(initial=0))
             arrays.AddArray(vtk_array("arrow", values * (self._length / self._largest if self._largest else 0)))
+
+
+    def _grow_colors(self, arrays):
+        """To all but the hundredth of the values farthest out at each end."""
+        array = arrays.GetArray(self._colors)
+        if array and array.GetNumberOfValues():
+            values = vtk_to_numpy(array).astype(float)
+            values = numpy.linalg.norm(values, axis=1) if values.ndim > 1 else values
+            low, high = numpy.nanpercentile(values, [1, 99])
+            known = self._range if self._range[0] < self._range[1] else (low, high)
+            low, high = min(low, known[0]), max(high, known[1])
+            self._range = 0 if 0 <= low < 0.25 * high else low, high
+            if self._range[0] < high:
+                rescale_colors(self._colors, *self._range)
 
 
 @smproxy.source(name="SinewTables", label="Sinew Tables")

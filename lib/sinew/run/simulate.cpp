@@ -10,7 +10,6 @@
 #include <sinew/core/json.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/io/paraview/view_script.h>
 #include <sinew/io/paraview/view_state.h>
 #include <sinew/run/detail/run_checkpoints.h>
 #include <sinew/run/detail/run_log.h>
@@ -125,7 +124,6 @@ class Run {
     write_body(folder_.body(), prepared.filled, scene_.output.encoding);
     write_mesh_files(scene_);
     write_file(folder_.scene(), resolved_scene(scene_, folder_.path));
-    write_view_script(folder_.path);
   }
 
   void begin(Prepared prepared, const std::optional<SimulationState>& state, Stopwatch& watch) {

@@ -89,6 +89,16 @@ def ask_for_times(algorithm):
         at.Next()
 
 
+def rescale_colors(array, low, high):
+    """Gives the colors of an array other ends. Does nothing where the source is on a server, or nothing has these colors."""
+    from paraview.modules.vtkRemotingServerManager import vtkSMProxyManager
+    from paraview.modules.vtkRemotingViews import vtkSMTransferFunctionProxy
+    proxies = vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager()
+    colors = proxies and proxies.GetProxy("lookup_tables", f"{array}.PVLookupTable")
+    if colors:
+        vtkSMTransferFunctionProxy.RescaleTransferFunction(colors, low, high, False)
+
+
 def updated_to(inInfo, producer, port, time):
     """Updates what an input comes from to a time, in the pieces that are asked for. Refused where it fails."""
     keys, info = vtkStreamingDemandDrivenPipeline, inInfo.GetInformationObject(0)

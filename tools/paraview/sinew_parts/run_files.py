@@ -90,15 +90,20 @@ def open_series(folder):
     return [OpenSeries(name, folder, rows) for name, rows in found if rows]
 
 
-def newest_frame(folder, name):
-    """The frame of a series at the last time that it and all series have which every run writes; None: there is none."""
-    table, every = series_of(folder), vtkDataArraySelection()
-    there = [one for one in open_series(folder) if one.name == name or "asked_by" not in table[one.name]]
-    for one in there:
-        if one.name == name:
-            one.choose(every)
-            return one.at(min(other.rows[-1][0] for other in there), every)
-    return None
+def newest_time(folder):
+    """The last time that all series have which no setting asks for; None: there is none."""
+    table = series_of(folder)
+    return min((one.rows[-1][0] for one in open_series(folder) if "asked_by" not in table[one.name]), default=None)
+
+
+def whole_frame(folder, name, time):
+    """The frame of a series at a time, with all arrays; None: there is none."""
+    rows, every = rows_of(os.path.join(folder, f"{name}.pvd")), vtkDataArraySelection()
+    if not rows or time is None:
+        return None
+    series = OpenSeries(name, folder, rows)
+    series.choose(every)
+    return series.at(time, every)
 
 
 def without_rounding(grid):

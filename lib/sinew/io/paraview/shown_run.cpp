@@ -33,14 +33,25 @@ std::vector<std::size_t> samples(std::size_t frames, std::size_t points) {
   return chosen;
 }
 
+/// Adds the corners of a box.
+void add_box(ShownRun& run, const Vec3& low, const Vec3& high) {
+  for (int corner = 0; corner < 8; ++corner)
+    run.corners.emplace_back(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
+                             corner & 4 ? high.z() : low.z());
+}
+
 void add_corners(ShownRun& run, const Points& points) {
   if (points.empty()) return;
   Vec3 low = points[0], high = points[0];
   for (const Vec3& point : points) low = low.cwiseMin(point), high = high.cwiseMax(point);
-  low -= run.origin, high -= run.origin;
-  for (int corner = 0; corner < 8; ++corner)
-    run.corners.emplace_back(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
-                             corner & 4 ? high.z() : low.z());
+  add_box(run, low - run.origin, high - run.origin);
+}
+
+/// Adds a box around the body at rest with space to bend: its motion is not yet known.
+void make_room(ShownRun& run) {
+  const Vec3 middle = (run.rest[0] + run.rest[1]) / 2, half = (run.rest[1] - run.rest[0]) / 2;
+  const Vec3 reach = (3 * half).cwiseMin(1.2 * half.maxCoeff());
+  add_box(run, middle - reach, middle + reach);
 }
 
 /// Values of a scalar, lengths of vectors and tensors; without those that are not defined.
@@ -174,6 +185,7 @@ void choose_cells(ShownRun& run) {
 
 /// Nearest time of a frame.
 double frame_at(const std::vector<double>& times, double time) {
+  time = std::clamp(time, times.front(), times.back());
   return *std::min_element(times.begin(), times.end(), [&](double a, double b) {
     return std::abs(a - time) < std::abs(b - time);
   });
@@ -212,6 +224,7 @@ ShownRun shown_run(const fs::path& folder, const ViewOptions& options) {
   if (run.has("supports")) read_supports(run);
   choose_cells(run);
   run.has_bones = first_frame(run, "bones").cells() > 0;
+  if (options.live) make_room(run);
   run.moment = frame_at(run.times, options.time.value_or(run.moment));
   return run;
 }

@@ -23,6 +23,8 @@ struct ViewOptions {
   std::string cut = "y";   ///< axis across which the body is cut open: x, y, z or none
   std::optional<std::string> forces = {};  ///< as arrows; "": force_pair
   std::optional<double> time = {};         ///< s; none: when the array is largest
+  double aspect = 1;                       ///< width over height of each of the two views
+  bool live = false;  ///< follows the run by the plugin's source SinewSeries, with room to bend
 };
 
 struct ShownRun {

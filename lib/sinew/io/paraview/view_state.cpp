@@ -47,6 +47,7 @@ diffuseColor = diffuseColor * (0.25 + 0.75 * light) + vec3(shine);
 constexpr double lab = 2, magnitude = 0, custom_shader = 6, gradient = 1;
 constexpr double snap_to_timesteps = 2;
 constexpr double never = -1, grow_every_timestep = 1;
+constexpr double height = 1000;  ///< pixels of a view that is in no window: letters have theirs
 /// Bones shine through the skin.
 constexpr double skin_opacity = 0.45, bare_skin_opacity = 0.2;
 constexpr double upper_left = 4, lower_center = 3, horizontal = 0, any_place = 0;
@@ -152,7 +153,8 @@ class Show {
              .number("VectorMode", magnitude)
              .numbers("NanColor", {0.62, 0.62, 0.62})  // gray: no value here
              .number("ScalarRangeInitialized", 1)
-             .number("AutomaticRescaleRangeMode", run_.grows ? grow_every_timestep : never);
+             .number("AutomaticRescaleRangeMode",
+                     run_.grows && !options_.live ? grow_every_timestep : never);
     return *table_;
   }
 
@@ -243,12 +245,13 @@ class Show {
                            .numbers("OrientationAxesLabelColor", ink)
                            .number("OrientationAxesVisibility", name == "bones")
                            .number("CenterAxesVisibility", 0)
-                           .number("ViewTime", run_.moment);
+                           .number("ViewTime", run_.moment)
+                           .numbers("ViewSize", {std::round(height * options_.aspect), height});
     look_at(view);
     return view;
   }
 
-  /// Looks from the left, the front and above, z up, as near as all corners allow in a square.
+  /// Looks from the left, the front and above, z up, as near as all corners allow.
   void look_at(StateProxy& view) const {
     constexpr double wide = 0.9, tall = 0.8, angle = 30;  // above the color bar
     const Vec3 back = Vec3(-0.46, -0.84, 0.29).normalized();
@@ -261,8 +264,8 @@ class Show {
     double distance = 0;
     for (const Vec3& corner : run_.corners) {
       const Vec3 offset = corner - middle;
-      const double reach =
-          std::max(std::abs(offset.dot(up)) / tall, std::abs(offset.dot(across)) / wide);
+      const double reach = std::max(std::abs(offset.dot(up)) / tall,
+                                    std::abs(offset.dot(across)) / (wide * options_.aspect));
       distance = std::max(distance, offset.dot(back) + reach / half);
     }
     const Vec3 focus = middle - half * distance * (0.95 - tall) * up;
@@ -287,9 +290,10 @@ class Show {
             right +
             "\"/>\n"
             "      </Layout>\n");
+    const std::vector<const StateProxy*> none;  // a live source has the moment that there is
     StateProxy& keeper = state_.add("misc", "TimeKeeper", "timekeeper", "TimeKeeper1")
                              .number("Time", run_.moment)
-                             .refer("TimeSources", parts_.all)
+                             .refer("TimeSources", options_.live ? none : parts_.all)
                              .refer("Views", {left_, right_});
     state_.add("animation", "AnimationScene", "animation", "AnimationScene1")
         .refer("TimeKeeper", {&keeper})

@@ -32,8 +32,7 @@ class Pipeline {
     }
     if (!run_.forces.empty()) made_.forces = &force_arrows();
     if (run_.has("supports")) made_.machine = {&machine_arrows(false), &machine_arrows(true)};
-    made_.time = &filter("TimeToTextConvertor", "time", *made_.series["particles"])
-                      .text("Format", {"t = {time:.3f} s"});
+    made_.time = &time_note();
     if (options_.forces && made_.forces != nullptr) made_.note = &arrow_note();
     return std::move(made_);
   }
@@ -50,10 +49,22 @@ class Pipeline {
   }
 
   void open_series() {
-    for (const std::string& name : run_.series)
-      made_.series[name] =
-          &near_body(name, source("sources", "PVDReader", name)
-                               .text("FileName", {(run_.folder / (name + ".pvd")).string()}));
+    for (const std::string& name : run_.series) made_.series[name] = &near_body(name, opened(name));
+  }
+
+  StateProxy& opened(const std::string& name) {
+    if (!options_.live)
+      return source("sources", "PVDReader", name)
+          .text("FileName", {(run_.folder / (name + ".pvd")).string()});
+    StateProxy& live = source("sources", "SinewSeries", name)
+                           .text("FileName", {(run_.folder / "run.json").string()})
+                           .text("Series", {name});
+    if (name == "particles") live.text("Colors", {run_.array});
+    if (name == "particles" && !run_.grows)
+      live.numbers("ColorRange", {run_.range[0], run_.range[1]});
+    if (name != "particles" && name != "supports") return live;
+    return live.text("Vectors", {name == "supports" ? "force" : run_.forces})
+        .number("ArrowLength", arrow_fraction * run_.size());
   }
 
   /// Graphics have single precision: a body far away is shown relative to a point near it.
@@ -139,10 +150,12 @@ class Pipeline {
                             .number("ShaftResolution", sides)
                             .number("TipRadius", radii[0])
                             .number("ShaftRadius", radii[1]);
+    const std::string named = options_.live ? "arrow" : array;  // which has the length to be shown
+    const double scale = largest > 0 ? arrow_fraction * run_.size() / largest : 0;
     return glyph.refer("Source", {&arrow})
-        .array("OrientationArray", false, array)
-        .array("ScaleArray", false, array)
-        .number("ScaleFactor", largest > 0 ? arrow_fraction * run_.size() / largest : 0);
+        .array("OrientationArray", false, named)
+        .array("ScaleArray", false, named)
+        .number("ScaleFactor", options_.live ? 1 : scale);
   }
 
   StateProxy& force_arrows() {
@@ -164,10 +177,23 @@ class Pipeline {
         .number("GlyphMode", all_points);
   }
 
+  StateProxy& time_note() {
+    const StateProxy& particles = *made_.series["particles"];
+    if (options_.live)
+      return filter("AnnotateGlobalData", "time", particles)
+          .text("SelectArrays", {"TimeValue"})
+          .text("Prefix", {"t = "})
+          .text("Suffix", {" s"})
+          .text("Format", {"%.3f"});
+    return filter("TimeToTextConvertor", "time", particles).text("Format", {"t = {time:.3f} s"});
+  }
+
   StateProxy& arrow_note() {
+    const std::string of_live = ": the longest arrow is the largest so far";
     return source("sources", "TextSource", "length of arrows")
-        .text("Text", {run_.forces + ": the longest arrow at any time is " +
-                       three_digits(run_.strongest) + " N"});
+        .text("Text", {run_.forces + (options_.live ? of_live
+                                                    : ": the longest arrow at any time is " +
+                                                          three_digits(run_.strongest) + " N")});
   }
 
   StateFile& state_;
