@@ -30,7 +30,7 @@ struct Options {
 };
 
 constexpr const char* of_scenes = "calculix";  // not of particles
-constexpr const char* of_cells = "volume";     // of tetrahedra between them
+constexpr const char* of_cells = "volume";     // name of tetrahedra between them
 
 /// "" where the surface is not what is asked for.
 std::string surface_extension(const Options& options) {

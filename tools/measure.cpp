@@ -28,7 +28,7 @@ struct Options {
   std::vector<std::string> folders;
   std::vector<std::string> limits;
   std::string reference, arrays, out;
-  bool movie_follows = false;  ///< as part of sinew run, which draws the movie last
+  bool movie_follows = false;  ///< part of sinew run, which draws the movie last
 };
 
 void declare(OptionList& list, Options& options) {

@@ -50,7 +50,7 @@ Vec3 size_of(const std::string& text) {
   if (read != 3 || !(size.minCoeff() > 0) || !(size.maxCoeff() < 1e6))
     throw bad_input("--size " + shown(text) + " is no size",
                     "give three lengths above 0 in meters, as in 0.1,0.1,0.4");
-  constexpr double longest = 500;  // of what is filled and meshed in seconds
+  constexpr double longest = 500;  // extent of what is filled and meshed in seconds
   if (size.maxCoeff() > longest * size.minCoeff())
     throw bad_input("--size " + shown(text) + " is over 500 times as long as thin",
                     "make it shorter or thicker");

@@ -31,10 +31,10 @@ struct Options {
   bool axes = false;
   std::vector<std::string> views;  ///< none given: the body, and bonds where the run wrote them
   std::vector<double> times, range, plane;
-  std::vector<int> part;      ///< of the movie's frames, which goes to standard output: K of N
+  std::vector<int> part;      ///< part of the movie's frames, which goes to standard output: K of N
   int width = 0, height = 0;  ///< 0: those of the look
   bool no_movie = false, no_pictures = false;
-  bool percents = false;  ///< of the progress, as lines on standard output, for sinew run
+  bool percents = false;  ///< whether progress is told as lines on standard output, for sinew run
 };
 
 std::string help_of_views() {

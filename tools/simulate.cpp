@@ -61,7 +61,7 @@ std::string resume_words(const Options& options, const Common& common, const Run
 
 Exit simulate_scene(int argc, char** argv, const Options& options, const Common& common) {
   end_at_stop_signals(!common.quiet, FolderLock::release_held);
-  catch_lost_reader();  // of the first warnings, too
+  catch_lost_reader();  // guards the first warnings, too
   refuse_mesh_as_scene(options.scene);
   const Settings settings = read_scene(options.scene, common.overrides);
   const RunFolder folder = run_folder(options.scene, options.folder);

@@ -12,12 +12,12 @@ namespace sinew::python {
 
 struct FilledBody {
   Points points;                                          ///< at rest, m
-  double radius = 0, mass = 0;                            ///< of each particle, m and kg
-  std::vector<std::int32_t> component, neighbors;         ///< as in Filling; empty: made in Python
-  std::vector<double> volume_share = {}, stiffness = {};  ///< as in Filling
-  Triangles surface = {};                                 ///< of the mesh that is filled, m
-  std::string meta = {};                                  ///< of body.vtu, JSON; "": none
-  std::vector<std::string> warnings = {};                 ///< of the filling
+  double radius = 0, mass = 0;                            ///< values of each particle, m and kg
+  std::vector<std::int32_t> component, neighbors;         ///< columns of Filling; or empty
+  std::vector<double> volume_share = {}, stiffness = {};  ///< columns of Filling
+  Triangles surface = {};                                 ///< surface of the mesh that is filled, m
+  std::string meta = {};                                  ///< meta of body.vtu, JSON; "": none
+  std::vector<std::string> warnings = {};                 ///< warnings of the filling
 
   /// The same for prepare().
   BodyFile file() const {

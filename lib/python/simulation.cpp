@@ -39,7 +39,7 @@ class Stepped {
   }
   void run_until(double time) {
     if (!std::isfinite(time)) throw bad_input("the time is not finite", "give seconds");
-    constexpr double rounding = 1e-12;  // of times, which are numbers of steps
+    constexpr double rounding = 1e-12;  // fraction of times, which are numbers of steps
     run([&, end = time * (1 - rounding)] { return simulation_->time() < end; });
   }
 
@@ -246,7 +246,7 @@ class Stepped {
 
   std::optional<Simulation> simulation_;
   std::optional<Posing> first_posing_, posing_;
-  bool is_posed_ = false;  ///< by set_pose()
+  bool is_posed_ = false;  ///< whether set_pose() has posed it
   std::optional<OwnForces> own_forces_;
   std::optional<ParticleMeter> meter_;  ///< where arrays were asked for
   OutputSettings output_;

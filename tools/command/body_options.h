@@ -19,7 +19,7 @@ class BodyFlags {
  public:
   enum class Kind {
     all,   ///< each setting of the section body except its mesh, and the density
-    mesh,  ///< those about reading the mesh
+    mesh,  ///< options about reading the mesh
   };
 
   /// Adds one option for each.

@@ -164,7 +164,7 @@ class EngineProcess {
   }
 
   void finish() {
-    if (process_ == 0) return;  // as after a failure; a signal to 0 would reach sinew itself
+    if (process_ == 0) return;  // happens after a failure; a signal to 0 would reach sinew itself
     ::kill(process_, listens_ ? SIGUSR1 : SIGTERM);  // where there is more to do
     while (read_more()) {
     }

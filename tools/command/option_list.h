@@ -23,11 +23,11 @@ class CommandOption {
   explicit CommandOption(CLI::Option& option) : option_(&option) {}
 
   CommandOption& required();
-  CommandOption& type_name(const std::string& name);    ///< of its value, in --help
+  CommandOption& type_name(const std::string& name);    ///< names its value, in --help
   CommandOption& group(const std::string& heading);     ///< in --help; "" hides it
   CommandOption& show_default();                        ///< in --help
   CommandOption& excludes(const CommandOption& other);  ///< not both may be given
-  CommandOption& range(int lowest, int highest);        ///< of its value
+  CommandOption& range(int lowest, int highest);        ///< limits its value
   CommandOption& positive();                            ///< its value is
   CommandOption& expected(int count);                   ///< so many values
   CommandOption& expected(int fewest, int most);        ///< so many values

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double worth_telling =
     0.05;  // fraction of the time that the simulation waits for writing
-constexpr auto between = std::chrono::seconds(10);  // of lines that are not rewritten
+constexpr auto between = std::chrono::seconds(10);  // time between lines that are not rewritten
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::min(std::ceil(seconds), 1e9));

@@ -120,7 +120,7 @@ class HashedFile {
 /// What all versions begin with.
 struct Head {
   std::uint32_t mark = byte_order_mark, version = format_version;
-  std::uint64_t length = 0;  ///< of the file, bytes
+  std::uint64_t length = 0;  ///< length of the file, bytes
   std::string program;
 };
 

@@ -39,7 +39,7 @@ struct RunIdentity {
 struct Checkpoint {
   RunIdentity run;
   SimulationState state;
-  std::uint64_t number = 0;  ///< of those that the run has written
+  std::uint64_t number = 0;  ///< number among those that the run has written
 };
 
 /// Throws not written.

@@ -27,8 +27,8 @@ Dataset surface_dataset(const Triangles& surface, const Points& rest,
 struct ObstacleFrame {
   const Triangles& surface;              ///< in the obstacle's own frame, m
   RigidFrame frame;                      ///< in the scene
-  Vec3 velocity, angular_velocity;       ///< of the frame, m/s and rad/s
-  Vec3 reaction_force, reaction_moment;  ///< of the body on it, N and N m about the frame's origin
+  Vec3 velocity, angular_velocity;       ///< velocities of the frame, m/s and rad/s
+  Vec3 reaction_force, reaction_moment;  ///< reaction of the body, N and N m about its origin
 };
 
 /// The surfaces of all obstacles in one dataset.

@@ -50,7 +50,7 @@ class Rows {
  private:
   std::span<const std::int32_t> ids_;
   std::size_t all_;
-  std::vector<std::uint32_t> place_;  ///< by id; empty where ids are in order
+  std::vector<std::uint32_t> place_;  ///< index: particle id; empty where ids are in order
 };
 
 /// The columns of a frame, computed row by row.

@@ -24,18 +24,18 @@ namespace sinew {
 struct ParticleFrame {
   const Particles& now;                     ///< in any order; their positions are not used
   const Points& rest;                       ///< m, by id
-  const Binding& binding;                   ///< by id
+  const Binding& binding;                   ///< index: particle id
   std::span<const Vec3> force_pair;         ///< N
   std::span<const Vec3> force_damping;      ///< N
   std::span<const Vec3> force_bone;         ///< N
   std::span<const std::int32_t> neighbors;  ///< number closer than b
   Energies energies;
   std::span<const Vec3> force_world = {};           ///< N; empty without a world
-  std::span<const std::int32_t> material = {};      ///< by id; empty where there is only one
-  std::span<const std::int32_t> broken_bonds = {};  ///< of each; empty where there are no bonds
+  std::span<const std::int32_t> material = {};      ///< index: id; empty where there is only one
+  std::span<const std::int32_t> broken_bonds = {};  ///< number at each; empty: no bonds
   /// What is written as their ids, for a part of a body, whose own begin with 0; empty: these.
   std::span<const std::int32_t> ids = {};
-  std::span<const std::int32_t> group = {}, level = {};  ///< by id; empty where there are none
+  std::span<const std::int32_t> group = {}, level = {};  ///< index: id; empty: none
   std::span<const Vec3> force_group = {};                ///< N; empty without groups
   std::span<const std::int32_t> limited = {};            ///< times of each; empty: never
   Unbalanced unbalanced = {};
@@ -43,7 +43,7 @@ struct ParticleFrame {
 
 /// What a frame contains.
 struct ParticleSelection {
-  std::vector<std::int32_t> ids;         ///< of the particles, ascending; empty: all
+  std::vector<std::int32_t> ids;         ///< ids of the particles, ascending; empty: all
   std::vector<std::string_view> arrays;  ///< beside the points; empty: all
 };
 

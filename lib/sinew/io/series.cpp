@@ -41,7 +41,7 @@ PvdRow row_of(const XmlElement& element) {
   if (!given.contains("timestep") || !given.contains("file"))
     throw no_series("a DataSet lacks its timestep or file");
   std::string file = given.at("file");
-  std::replace(file.begin(), file.end(), '\\', '/');  // as written on Windows
+  std::replace(file.begin(), file.end(), '\\', '/');  // paths as Windows writes them
   check_inside(file);
   return {time_of(given.at("timestep")), std::move(file)};
 }

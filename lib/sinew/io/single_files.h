@@ -61,12 +61,12 @@ struct BodyFile {
   Particles particles;                              ///< at rest, in the written order
   std::vector<std::int32_t> neighbors;              ///< touching particles of each
   std::vector<std::int32_t> component;              ///< connected component of each, from 0
-  std::optional<std::vector<double>> volume_share;  ///< of the body, as Filling::volume_share
-  std::optional<std::vector<double>> stiffness;     ///< of each material over the body's
+  std::optional<std::vector<double>> volume_share;  ///< share as Filling::volume_share
+  std::optional<std::vector<double>> stiffness;     ///< stiffness of each material over the body's
   std::optional<std::vector<double>> density;  ///< the same of the density: factors on the mass
   std::optional<std::vector<double>> volume_stiffness;  ///< K_v, Pa, where it differs
-  std::optional<std::vector<std::int32_t>> bone;        ///< of each, once bound
-  std::optional<std::vector<double>> weight;            ///< of that bone in it, once bound
+  std::optional<std::vector<std::int32_t>> bone;        ///< bone of each particle, once bound
+  std::optional<std::vector<double>> weight;            ///< weight of that bone in it, once bound
   std::string meta;                                     ///< UTF-8 JSON, or empty
 };
 

@@ -22,7 +22,7 @@ struct VtuFormat {
   Encoding encoding = Encoding::zlib;
   bool double_precision = false;  ///< Float64 for every real number
   std::string series;             ///< which rows of the table apply
-  double radius = 0;              ///< of the particles, m; beyond 1e4 radii Float32 is too coarse
+  double radius = 0;              ///< radius, m; beyond 1e4 radii Float32 is too coarse
   bool double_points = false;     ///< Float64 for the points
   bool finite = false;  ///< refuses values that are not finite, or become so in Float32; of partial
                         ///< arrays infinite ones alone

@@ -270,7 +270,7 @@ class VtuText {
   const VtuFormat& format_;
   double time_;  ///< s
   std::string pending_;
-  std::uint64_t offset_ = 0;   ///< of the next array in the appended data
+  std::uint64_t offset_ = 0;   ///< offset of the next array in the appended data
   std::future<void> writing_;  ///< the last member: its thread uses the others
 };
 

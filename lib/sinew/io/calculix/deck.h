@@ -32,7 +32,7 @@ struct DeckSet {
 struct HeldNode {
   std::uint32_t node = 0;
   int axis = 0;             ///< 0 to 2
-  double displacement = 0;  ///< from rest, m
+  double displacement = 0;  ///< distance from rest, m
 };
 
 struct NodeForce {
@@ -55,11 +55,11 @@ struct DeckStep {
 
 struct Deck {
   std::string title;           ///< one line
-  VolumeMesh mesh;             ///< of one kind of elements
+  VolumeMesh mesh;             ///< mesh of one kind of elements
   Vec3 origin = Vec3::Zero();  ///< to which written nodes are relative, m: results have six digits
   std::vector<DeckMaterial> materials;
   std::vector<DeckSet> sets;
-  std::vector<DeckStep> steps;      ///< of ascending times
+  std::vector<DeckStep> steps;      ///< steps of ascending times
   bool large_displacements = true;  ///< equilibrium in the deformed shape
   int frequencies =
       0;  ///< above 0: so many lowest modes of the body at rest, held as in its one step

@@ -33,7 +33,7 @@ class FrdLines {
   FrdLines(std::string_view text, std::string file)
       : rest_(text), bytes_(text.size()), file_(std::move(file)) {}
 
-  std::size_t bytes() const { return bytes_; }  ///< of the text
+  std::size_t bytes() const { return bytes_; }  ///< size of the text
 
   std::optional<std::string_view> next() {
     if (rest_.empty()) return std::nullopt;
@@ -302,7 +302,7 @@ class FrdReader {
 
   FrdLines lines_;
   FrdResult result_;
-  std::unordered_map<int, std::uint32_t> place_;  ///< of nodes by their number
+  std::unordered_map<int, std::uint32_t> place_;  ///< place of nodes by their number
   std::size_t taken_ = 0;                         ///< bytes of results
 };
 

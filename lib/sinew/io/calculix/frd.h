@@ -20,9 +20,9 @@ using StressComponents = std::array<double, 6>;  ///< XX YY ZZ XY YZ XZ, Pa
 /// Not-a-number at nodes for which the file has nothing.
 struct FrdStep {
   double time = 0;
-  Points displacement;                   ///< of each node, m
-  std::vector<StressComponents> stress;  ///< of each node; empty: not written
-  Points force = {};                     ///< of each node, N: what the elements answer; or empty
+  Points displacement;                   ///< displacement of each node, m
+  std::vector<StressComponents> stress;  ///< stress of each node; empty: not written
+  Points force = {};                     ///< force of the elements on each node, N; or empty
 };
 
 struct FrdResult {

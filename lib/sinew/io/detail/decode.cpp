@@ -74,7 +74,7 @@ std::uint64_t word_at(std::string_view bytes, std::size_t at, std::size_t size) 
 /// Compressed blocks, all of `size` bytes but the last one.
 struct Blocks {
   std::uint64_t size = 0;
-  std::vector<std::uint64_t> starts{0};  ///< of each compressed block, and the end of the last one
+  std::vector<std::uint64_t> starts{0};  ///< beginnings of blocks, end of the last one
 };
 
 /// Takes blocks by the counts before them: their number, their size, that of the last one if it is

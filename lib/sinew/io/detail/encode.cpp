@@ -150,7 +150,7 @@ class StoredPiece {
     array_.put(begin, std::max(last_, end), bytes());
   }
   unsigned char* bytes() { return reinterpret_cast<unsigned char*>(values_.data()); }
-  std::size_t size() const { return (end_ - begin_) * array_.size; }  ///< of [begin, end), bytes
+  std::size_t size() const { return (end_ - begin_) * array_.size; }  ///< size of [begin, end)
   /// Finds the range of the rows that begin in it.
   ValueRange range() {
     return range_of_bytes(bytes() + (first_ - begin_) * array_.size, last_ - first_, width_,

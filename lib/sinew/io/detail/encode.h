@@ -27,7 +27,7 @@ struct FileArray {
 
   std::string_view type;  ///< VTK's name: "Float32"
   std::size_t size = 1;   ///< bytes of a value
-  std::size_t count = 0;  ///< of values
+  std::size_t count = 0;  ///< count of values
   Put put;
 
   std::size_t bytes() const { return size * count; }
@@ -55,7 +55,7 @@ struct ValueRange {
 };
 ValueRange range_of(const FileArray& array, int components);
 
-inline constexpr std::size_t block_bytes = 32768;  ///< as in VTK; fits into L1 caches
+inline constexpr std::size_t block_bytes = 32768;  ///< VTK's size; fits into L1 caches
 
 /// The text of a DataArray element of format "binary": `counts`, then the base64 of the parts one
 /// after the other. Compressed (zlib, lz4), the counts are the number of blocks, the bytes of a
@@ -63,7 +63,7 @@ inline constexpr std::size_t block_bytes = 32768;  ///< as in VTK; fits into L1 
 /// the parts are the blocks. Otherwise the number of bytes is the first part.
 struct EncodedArray {
   ValueRange range;
-  std::string counts;  ///< as base64
+  std::string counts;  ///< base64
   std::vector<std::string> parts;
 
   std::size_t text_size() const;

@@ -16,9 +16,9 @@ namespace sinew {
 
 /// Where the arrays of a file are and how they are encoded.
 struct VtuArrays {
-  Coding within;              ///< of data in the elements
-  Coding behind;              ///< of data in the appended section
-  std::string_view appended;  ///< from after the '_'
+  Coding within;              ///< coding of data in the elements
+  Coding behind;              ///< coding of data in the appended section
+  std::string_view appended;  ///< data after the '_'
   std::uint64_t most = 0;     ///< values that the file could hold
 
   /// Integers where all fit Int32, else doubles. Throws bad input, naming the array, where it does

@@ -16,7 +16,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t few_elements = 200'000;  // of any size
+constexpr std::size_t few_elements = 200'000;  // number allowed at any size
 constexpr std::size_t bytes_per_element = 32;  // in the mean beyond; rows of a PVD have eighty
 constexpr std::size_t longest_path = 1000;     // characters; bounds the depth, too
 constexpr std::size_t longest_tag = 1 << 20;   // bytes
@@ -126,7 +126,7 @@ class Elements {
   std::string path_;
   std::vector<XmlElement> elements_;
   bool open_ = false;     ///< the last tag read begins the last element read
-  bool at_last_ = false;  ///< that element is the one to stop at
+  bool at_last_ = false;  ///< whether that element is the one to stop at
   std::exception_ptr thrown_;
 };
 

@@ -22,7 +22,7 @@ namespace sinew {
 struct CheckedGltf {
   GltfDocument document;    ///< no buffers: the views' offsets count from the start of `bytes`
   std::vector<char> bytes;  ///< all buffers, below 2 GiB
-  GltfTree tree;            ///< of all nodes
+  GltfTree tree;            ///< tree of all nodes
   std::vector<int> shown;   ///< the nodes of the default scene, parents first
 };
 

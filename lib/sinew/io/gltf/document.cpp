@@ -86,14 +86,14 @@ class Field {
   bool given() const { return value_ != nullptr; }
   const std::string& name() const { return name_; }
 
-  Field operator[](const char* key) const {  ///< of an object
+  Field operator[](const char* key) const {  ///< member of an object
     const std::string name = name_.empty() ? key : name_ + '.' + key;
     if (!given()) return {nullptr, name};
     const auto found = object().find(key);
     return {found == value_->end() ? nullptr : &*found, name};
   }
 
-  std::vector<Field> items() const {  ///< of an array
+  std::vector<Field> items() const {  ///< elements of an array
     std::vector<Field> items;
     if (array().size() > max_items)
       throw bad_input(

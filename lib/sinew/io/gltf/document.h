@@ -66,7 +66,7 @@ struct GltfPrimitive {
 
   /// Whether it has triangles to draw.
   bool is_surface() const { return mode >= GltfMode::triangles && attributes.contains("POSITION"); }
-  int positions() const { return attributes.at("POSITION"); }  ///< of a surface
+  int positions() const { return attributes.at("POSITION"); }  ///< accessor of a surface's points
 };
 
 struct GltfMesh {
@@ -109,7 +109,7 @@ struct GltfChannel {
 struct GltfAnimation {
   std::string name;
   std::vector<GltfSampler> samplers;
-  std::vector<GltfChannel> channels;  ///< those that move nodes
+  std::vector<GltfChannel> channels;  ///< channels that move nodes
 };
 
 struct GltfDocument {

@@ -90,7 +90,7 @@ class Paste {
   const GltfShape& shape_;
   int primitive_;
   bool mirrors_;
-  std::vector<int> places_;  // of vertices in the soup, -1 for unused ones
+  std::vector<int> places_;  // places of vertices in the soup, -1 for unused ones
   GltfTriangles& triangles_;
 };
 

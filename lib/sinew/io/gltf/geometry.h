@@ -32,8 +32,8 @@ struct GltfShape {
 /// The origin of a vertex.
 struct GltfVertex {
   int node = -1;
-  int primitive = 0;  ///< of the node's mesh
-  int vertex = 0;     ///< of that primitive's accessors
+  int primitive = 0;  ///< primitive of the node's mesh
+  int vertex = 0;     ///< vertex of that primitive's accessors
 };
 
 struct GltfTriangles {

@@ -160,7 +160,7 @@ class LookReader {
   const std::vector<std::string>& materials_;
   PolygonLook& out_;
   SurfaceLook& look_;
-  std::map<int, Mat3> turn_;  // of normals, by node
+  std::map<int, Mat3> turn_;  // turn of normals, by node
   std::map<const GltfPrimitive*, Attributes> attributes_;
   std::map<PrimitivePlace, int> parts_;
   std::vector<bool> has_coordinates_, has_normal_;  // per vertex

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int longest_chain = 1000;    // the longest chains have about 200
 constexpr double uneven_scale = 0.01;  // far above single precision and exporters' rounding
-constexpr double apart = 0.001;        // of the skeleton's size
+constexpr double apart = 0.001;        // fraction of the skeleton's size
 
 /// Each node's parent, -1 for none.
 std::vector<int> parents_of(const GltfDocument& document) {

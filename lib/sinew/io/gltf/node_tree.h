@@ -25,7 +25,7 @@ struct CheckedGltf;
 using Affine = Eigen::Affine3d;
 
 struct GltfTree {
-  std::vector<int> parents;  ///< of each node, -1 for none
+  std::vector<int> parents;  ///< parents of each node, -1 for none
   std::vector<int> order;    ///< all nodes, depth first: parents before their children
 };
 
@@ -63,8 +63,8 @@ struct GltfJoint {
 };
 
 struct GltfBindPose {
-  std::vector<GltfJoint> joints;  ///< of all skins in use, each once, depth first
-  std::vector<Affine> meshes;     ///< of each skin, the transform M of its meshes
+  std::vector<GltfJoint> joints;  ///< joints of all skins in use, each once, depth first
+  std::vector<Affine> meshes;     ///< transform M of each skin's meshes
   /// Indices of each skin's joints in `joints`; none for a skin that is not in use.
   std::vector<std::vector<int>> places;
 };

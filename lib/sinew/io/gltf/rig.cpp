@@ -21,7 +21,7 @@ constexpr int max_sets = 8;  // exporters write one or two
 /// A small file can refer to the same numbers many thousand times.
 void check_size(const GltfDocument& document) {
   constexpr double key = 100, node = 1000;  // bytes
-  constexpr double max_visits = 1e8;        // of nodes, about 10 s
+  constexpr double max_visits = 1e8;        // visits of nodes, about 10 s
   constexpr std::size_t max_animations = 10000;
   double bytes = node * static_cast<double>(document.nodes.size()), keys = 0;
   for (const GltfAnimation& animation : document.animations)
@@ -74,7 +74,7 @@ Skeleton skeleton_in(const GltfDocument& document, const GltfBindPose& bind) {
 
 /// Sets the clip's frames where its keys are evenly spaced.
 void count_frames(const std::vector<double>& times, Clip& clip) {
-  constexpr double uneven = 0.01;  // of a frame; times are in single precision
+  constexpr double uneven = 0.01;  // fraction of a frame; times are in single precision
   if (times.size() < 2) return;
   const double first = times.front(), count = static_cast<double>(times.size());
   const double frame = (times.back() - first) / (count - 1);

@@ -19,9 +19,9 @@ constexpr double arrow_fraction = 0.2;
 
 /// What a user may choose.
 struct ViewOptions {
-  std::string array = {};  ///< that colors body and skin; "": strain_eq, or else displacement
+  std::string array = {};  ///< array that colors body and skin; "": strain_eq, or else displacement
   std::string cut = "y";   ///< axis across which the body is cut open: x, y, z or none
-  std::optional<std::string> forces = {};  ///< as arrows; "": force_pair
+  std::optional<std::string> forces = {};  ///< array of the arrows; "": force_pair
   std::optional<double> time = {};         ///< s; none: when the array is largest
   double aspect = 1;                       ///< width over height of each of the two views
   bool live = false;  ///< follows the run by the plugin's source SinewSeries, with room to bend
@@ -29,20 +29,20 @@ struct ViewOptions {
 
 struct ShownRun {
   std::filesystem::path folder;     ///< absolute
-  std::vector<std::string> series;  ///< those it has, of those that are shown
-  std::vector<double> times;        ///< of its frames, s
+  std::vector<std::string> series;  ///< series shown that it has
+  std::vector<double> times;        ///< times of its frames, s
   Vec3 origin = Vec3::Zero();       ///< near the body, relative to which it is shown, m
   std::array<Vec3, 2> rest;         ///< corners of the box around the body at rest, m, from there
-  Points corners;                   ///< of boxes around all that is shown, over time, likewise
+  Points corners;                   ///< corners of boxes around all that is shown
   std::size_t particles = 0;
-  double radius = 0;        ///< of the particles, m
+  double radius = 0;        ///< radius of the particles, m
   bool can_be_cut = false;  ///< the frames tell where particles were at rest
   bool has_bones = false;
   bool has_cells = false;             ///< the series `volume` has the array
   bool skin_has_array = false;        ///< and so has the series `surface`
-  std::string array, unit;            ///< that colors body and skin
-  int components = 1;                 ///< of it
-  std::array<double, 2> range{0, 1};  ///< of it, without the hundredth farthest out
+  std::string array, unit;            ///< array that colors body and skin
+  int components = 1;                 ///< number of its components
+  std::array<double, 2> range{0, 1};  ///< range of its values, without the hundredth farthest out
   bool grows = false;    ///< the range is not known yet: there is only the body at rest
   double moment = 0;     ///< to begin with, s
   std::string forces;    ///< shown as arrows; "" where the frames lack them

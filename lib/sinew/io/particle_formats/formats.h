@@ -25,11 +25,11 @@ namespace sinew {
 struct ParticleCloud {
   Points positions;                                 ///< m
   Points velocities;                                ///< m/s; empty: they are not known
-  double radius = 0, mass = 0, volume = 0;          ///< of each: m, kg, m^3
+  double radius = 0, mass = 0, volume = 0;          ///< values of each: m, kg, m^3
   std::vector<std::int32_t> id;                     ///< ascending, from 0
   std::vector<std::int32_t> component;              ///< connected component, from 0
   std::vector<std::int32_t> bone;                   ///< -1 for none; empty: not bound
-  std::vector<std::int32_t> region;                 ///< of one material and one bone, from 0
+  std::vector<std::int32_t> region;                 ///< region of one material and one bone, from 0
   std::vector<std::string> region_names;            ///< one line of ASCII each
   std::vector<std::array<std::uint32_t, 2>> bonds;  ///< rows of two particles each
   double time = 0;                                  ///< s

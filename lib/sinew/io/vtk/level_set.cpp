@@ -34,7 +34,7 @@ class Padded {
     });
   }
 
-  std::size_t faces() const { return faces_; }  ///< of the surface: edges that it crosses
+  std::size_t faces() const { return faces_; }  ///< faces of the surface: edges that it crosses
   std::size_t samples_inside() const { return inside_; }
   std::size_t samples_cut() const { return cut_; }  ///< inside, and on the image's border
   int size(int axis) const { return image_.size[axis]; }
@@ -138,7 +138,7 @@ std::pair<double, Vec3> interpolated(const Padded& image, const Sample& cell, co
 
 /// Where the cell's corner of the surface lies, in samples.
 Vec3 surface_corner(const Padded& image, const Sample& cell) {
-  constexpr int steps = 3;  // of Newton's method: the first is nearly exact
+  constexpr int steps = 3;  // steps of Newton's method: the first is nearly exact
   const Vec3 mean = mean_crossing(image, cell);
   if (!image.contains(cell) || !image.contains(corner_of(cell, 7))) return mean;
   Vec3 at = mean - as_vector(cell);

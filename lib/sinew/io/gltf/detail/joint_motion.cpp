@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr double uneven_node = 1e-4;  // of a node's scale; more is not rounding
+constexpr double uneven_node = 1e-4;  // fraction of a node's scale; more is not rounding
 constexpr double max_places = 2e7;    // about 10 s
 constexpr double motionless = 1e-6;   // rad, and of the skeleton's size
 
@@ -27,7 +27,7 @@ Mat3 bound_turn(const GltfBindPose& bind, int joint) {
 /// The link from a joint's parent joint (from the scene for a topmost one) to the joint.
 struct GltfLink {
   Affine between = Affine::Identity();  ///< transform of the static nodes between the two
-  double scale = 1;                     ///< of lengths, by the parent joint and all above
+  double scale = 1;                     ///< scale of lengths, by the parent joint and all above
   bool exact =
       true;  ///< nothing between the two moves; scales are constant, even and do not mirror
 };

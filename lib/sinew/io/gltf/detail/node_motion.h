@@ -20,9 +20,9 @@ struct GltfNodeCurves {
 };
 
 struct GltfNodeMotion {
-  std::vector<GltfPlace> places;       ///< of each node; animated properties are invalid
-  std::vector<GltfNodeCurves> curves;  ///< of each node
-  std::vector<double> times;           ///< of all keys, s, ascending, each once
+  std::vector<GltfPlace> places;       ///< places of each node; animated properties are invalid
+  std::vector<GltfNodeCurves> curves;  ///< curves of each node
+  std::vector<double> times;           ///< times of all keys, s, ascending, each once
 
   /// Transform of a node relative to its parent.
   Affine at(int node, double time) const;

@@ -23,12 +23,12 @@ struct SplitSurface {
     std::vector<std::uint32_t> corners;  ///< vertices, three for each face
   };
 
-  std::vector<int> point;                  ///< of each vertex
-  std::vector<std::size_t> smooth;         ///< of each vertex: index of its normal
-  Points normals;                          ///< those given, in the scene's axes; zero: not given
+  std::vector<int> point;                  ///< point of each vertex
+  std::vector<std::size_t> smooth;         ///< index of each vertex's normal
+  Points normals;                          ///< normals given, in the scene's axes; zero: none
   bool has_normals = false;                ///< whether any is given
   std::vector<float> coordinates;          ///< u v of each vertex, v downward; empty: none
-  std::vector<SurfaceLook::Layer> layers;  ///< of the vertices
+  std::vector<SurfaceLook::Layer> layers;  ///< layers of the vertices
   std::vector<Patch> patches;
 };
 

@@ -18,12 +18,12 @@ struct ViewPipeline {
   std::map<std::string, StateProxy*> series;  ///< readers, by the names of the series
   StateProxy* particles = nullptr;            ///< cut open
   StateProxy* body = nullptr;                 ///< the surface of the cells, cut open
-  StateProxy* edges = nullptr;                ///< of the skin
+  StateProxy* edges = nullptr;                ///< edges of the skin
   StateProxy* bones = nullptr;                ///< tubes from head to tail
   StateProxy* axes = nullptr;                 ///< tubes along the axes of the bones
   StateProxy* forces = nullptr;               ///< arrows at some of the particles
   std::array<StateProxy*, 2> machine{};       ///< arrows of supports, and of loads
-  StateProxy* time = nullptr;                 ///< as text
+  StateProxy* time = nullptr;                 ///< time as text
   StateProxy* note = nullptr;                 ///< length of the arrows, where forces are asked for
   std::vector<const StateProxy*> all;
 };

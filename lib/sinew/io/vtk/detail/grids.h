@@ -21,7 +21,7 @@ namespace sinew {
 
 struct VtkCells {
   std::vector<int> types;          ///< VTK's numbers, one per cell
-  std::vector<std::int64_t> ends;  ///< of each cell's points, in `points`
+  std::vector<std::int64_t> ends;  ///< ends of each cell's points, in `points`
   std::vector<std::int64_t> points;
   std::vector<std::uint8_t> ghosts = {};  ///< VTK's flags of each cell, none of those at the end
 };
@@ -48,10 +48,10 @@ void add_warning(PolygonSoup& soup, const std::string& warning);
 
 struct LevelSet {
   std::array<int, 3> size{};        ///< samples along each axis
-  Vec3 origin = Vec3::Zero();       ///< of the first one
+  Vec3 origin = Vec3::Zero();       ///< origin of the first one
   Mat3 axes = Mat3::Identity();     ///< columns: from one sample to the next along each axis
   std::vector<double> values = {};  ///< the first axis varies fastest
-  std::size_t bytes = 0;            ///< of the values in the file, uncompressed
+  std::size_t bytes = 0;            ///< size of the values in the file, uncompressed
 };
 
 /// Values at the centers of the cells of an image, which has a sample less along each axis.
