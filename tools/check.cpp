@@ -5,7 +5,7 @@
 
 #include <sinew/inspection/check.h>
 #include <sinew/run/run_folder.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/scene_files.h>
 #include <sinew/settings/read_scene.h>
 #include "command/command.h"
 #include "command/drawing.h"

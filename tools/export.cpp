@@ -11,9 +11,10 @@
 #include <sinew/run/export_surfaces.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/run/volume_frames.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 #include <sinew/scene/finite_elements.h>
 #include <sinew/scene/rig.h>
+#include <sinew/scene/scene_files.h>
 #include <sinew/settings/read_scene.h>
 #include "command/child.h"
 #include "command/command.h"

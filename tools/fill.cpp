@@ -11,7 +11,9 @@
 #include <sinew/io/cells/cell_formats.h>
 #include <sinew/io/particle_formats/formats.h>
 #include <sinew/run/run_folder.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
+#include <sinew/scene/filling.h>
+#include <sinew/scene/scene_files.h>
 #include <sinew/settings/read_scene.h>
 #include "command/body_options.h"
 #include "command/command.h"
@@ -80,7 +82,15 @@ void print_with_warnings(Results& results, const FillReport& report, const Optio
 void print(const FillReport& report, const Options& options, const Common& common) {
   Results results;
   for (const auto& rows : {rows_of(report), times_of(report)})
-    for (const ReportRow& row : rows) results.add(row.key, json_of(row.value), row.unit);
+    for (const ReportRow& row : rows)
+      std::visit(
+          [&](const auto& value) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Vec3>)
+              results.add(row.key, std::vector<double>(value.begin(), value.end()), row.unit);
+            else
+              results.add(row.key, value, row.unit);
+          },
+          row.value);
   print_with_warnings(results, report, options, common);
 }
 

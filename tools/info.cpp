@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <sinew/inspection/info.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/scene_files.h>
 #include "command/body_options.h"

@@ -6,7 +6,7 @@
 #include <sinew/core/text.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/solids.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 #include <sinew/scene/new/new_scene.h>
 #include <sinew/scene/rig.h>
 #include "command/command.h"

@@ -7,7 +7,7 @@
 #include <sinew/core/text.h>
 #include <sinew/run/run_record.h>
 #include <sinew/run/simulate.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/scene_files.h>
 #include <sinew/settings/read_scene.h>
 
 #include "command/child.h"

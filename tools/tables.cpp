@@ -3,6 +3,7 @@
 #include <string>
 
 #include <sinew/core/arrays.h>
+#include <sinew/core/capabilities.h>
 #include <sinew/io/series_table.h>
 #include <sinew/metrics/bone_metrics.h>
 #include <sinew/metrics/sections.h>
@@ -62,6 +63,33 @@ std::string sections_markdown() {
   return text;
 }
 
+/// Rows are features, columns who steps or meshes a scene; "no" where the two exclude each other.
+std::string capabilities_markdown() {
+  using enum Feature;
+  constexpr Feature columns[] = {cells,      lists,  single_precision, groups,
+                                 equilibria, newton, lammps,           elements};
+  const auto table = feature_table();
+  std::string text = "| feature | key |", line = "\n|---|---|";
+  for (const Feature column : columns) {
+    ((text += ' ') += table[static_cast<std::size_t>(column)].words) += " |";
+    line += "---|";
+  }
+  text += line + '\n';
+  for (const FeatureRow& row : table) {
+    std::string keys, cells_of_row;
+    for (const std::string_view key : row.keys)
+      keys += (keys.empty() ? "`" : ", `") + std::string(key) + '`';
+    for (const Feature column : columns) {
+      const bool excluded =
+          conflict_with(column, {row.feature}) || conflict_with(row.feature, {column});
+      cells_of_row += excluded ? " no |" : row.feature == column ? " |" : " yes |";
+    }
+    if (cells_of_row.find("no") != std::string::npos)
+      text += "| " + std::string(row.words) + " | " + keys + " |" + cells_of_row + '\n';
+  }
+  return text;
+}
+
 std::string table_named(const std::string& name) {
   if (name == "settings") return settings_markdown();
   if (name == "manual") return settings_manual();
@@ -70,8 +98,10 @@ std::string table_named(const std::string& name) {
   if (name == "metrics") return metrics_markdown();
   if (name == "bones") return bones_markdown();
   if (name == "sections") return sections_markdown();
-  throw bad_input("no table is named '" + name + "'",
-                  "write sinew-tables settings, arrays, series, metrics, bones or sections");
+  if (name == "capabilities") return capabilities_markdown();
+  throw bad_input(
+      "no table is named '" + name + "'",
+      "write sinew-tables settings, arrays, series, metrics, bones, sections or capabilities");
 }
 
 }  // namespace

@@ -191,7 +191,8 @@ TEST(DynamicGroups, RefuseWhatTheyCannotBeCombinedWith) {
   bar.settings.solver.neighbor_search = NeighborSearch::cells;
   bar.body.grouping.reset();
   Simulation cells = bar.begin();
-  test::expect_bad_input([&] { cells.enable_dynamic_groups(options); }, {"cells have no groups"});
+  test::expect_bad_input([&] { cells.enable_dynamic_groups(options); },
+                         {"the paper's cells and groups of particles"});
 }
 
 TEST(DynamicGroups, RefuseObstaclesOfBodiesWithoutBones) {

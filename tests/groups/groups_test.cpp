@@ -305,15 +305,16 @@ TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
     change(settings);
     test::expect_bad_input([&] { grouped(settings); }, {message});
   };
-  expect("only in fcc", [](Settings& s) { s.body.packing = Packing::hcp; });
+  expect("only in fcc are", [](Settings& s) { s.body.packing = Packing::hcp; });
   expect("free particles", [](Settings& s) { s.solver.method = Method::static_equilibrium; });
-  expect("no groups", [](Settings& s) { s.solver.neighbor_search = NeighborSearch::cells; });
-  expect("drag and fields", [](Settings& s) { s.world.drag = 1; });
+  expect("the paper's cells and groups",
+         [](Settings& s) { s.solver.neighbor_search = NeighborSearch::cells; });
+  expect("drag and groups", [](Settings& s) { s.world.drag = 1; });
   expect("did you mean 'upper'", [](Settings& s) { s.hierarchy.free_bones = "lower, uper"; });
   expect("no particle is in it", [](Settings& s) {
     s.hierarchy.free_region = {{5, 5, 5, 6, 6, 6}};
   });
-  expect("flow or relax", [](Settings& s) {
+  expect("bonds that relax and groups", [](Settings& s) {
     s.material.model = MaterialModel::bonded;
     s.material.relaxation_shares = {{0.5}};
     s.material.relaxation_times = {{0.1}};
@@ -322,7 +323,7 @@ TEST(StaticGroups, RefuseWhatTheyCannotBeCombinedWith) {
     s.material.model = MaterialModel::bonded;
     s.material.friction = 0.5;
   });
-  expect("break, flow", [](Settings& s) {
+  expect("bonds that break and groups", [](Settings& s) {
     s.material.model = MaterialModel::bonded;
     s.material.breaking_strain = 0.2;
   });
@@ -398,7 +399,8 @@ TEST(Groups, RefuseALawThatAProgramBrings) {
   ForceLaw law = law_of(bar.body.material);
   law.name = "mine", law.kernel = &steps;
   bar.body.material.law = &law;
-  test::expect_bad_input([&] { check_groupable(bar.body); }, {"springs alone", "mine"});
+  test::expect_bad_input([&] { check_groupable(bar.body); },
+                         {"a law that a program brings", "groups of particles"});
 }
 
 }  // namespace sinew::groups_test

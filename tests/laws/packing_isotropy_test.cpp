@@ -10,7 +10,7 @@
 
 #include <sinew/body/solid.h>
 #include <sinew/mesh/clean.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/filling.h>
 #include <sinew/scene/prepare.h>
 #include "mesh/shapes.h"
 

@@ -8,7 +8,6 @@
 #include <sinew/rig/motion.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/simulate.h>
-#include <sinew/scene/body.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/settings/read_scene.h>
 

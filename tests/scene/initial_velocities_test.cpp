@@ -177,12 +177,12 @@ TEST(InitialVelocities, EquilibriaHaveNone) {
     };
   };
   test::expect_bad_input(refused("velocity: [1, 0, 0]"),
-                         {"knows no body.velocity", "set solver.method to dynamic"});
+                         {"initial velocities", "set solver.method to dynamic"});
   test::expect_bad_input(refused("angular_velocity: [1, 0, 0]"),
-                         {"knows no body.angular_velocity"});
+                         {"initial velocities and equilibria"});
   test::expect_bad_input(
       refused("keep: center", "bodies: [{mesh: other.obj, velocity: [1, 0, 0]}]\n"),
-      {"knows no bodies[0].velocity"});
+      {"scene.yaml:", "initial velocities and equilibria"});
 }
 
 }  // namespace sinew::initial_velocities_test

@@ -95,6 +95,9 @@ class Chance {
       for (int k = 0; k <= below(3); ++k) drawn.tracks.back().keys.push_back(owner(key_fields()));
     }
     add_machine(drawn);
+    if (conflict_with(Feature::groups, features_of(drawn))) drawn.hierarchy.enabled = false;
+    if (drawn.motion.preroll || drawn.solver.method == Method::static_equilibrium)
+      drawn.motion.begin = Begin::automatic;
     return drawn;
   }
 
@@ -211,9 +214,7 @@ class Chance {
       drawn.material.friction = 0;
       drawn.binding.twist_form = TwistForm::servo;
     }
-    if (drawn.hierarchy.enabled) drawn.contact.pass_through = {};
-    if (drawn.hierarchy.enabled || drawn.binding.twist_form == TwistForm::open_loop)
-      drawn.binding.max_force.reset();
+    if (drawn.binding.twist_form == TwistForm::open_loop) drawn.binding.max_force.reset();
   }
 
   std::mt19937 random_;

@@ -206,7 +206,7 @@ TEST(PassThrough, BonesThatAreNotThereAndGroupsAreRefused) {
   settings.contact.pass_through.pairs = {{"left", "left"}};
   test::expect_bad_input([&] { test::make_body(settings, rest); }, {"paired with itself"});
   Body body = test::make_body(passing(crossing(Model::bonded)), rest);
-  test::expect_bad_input([&] { check_groupable(body); }, {"pass_through"});
+  test::expect_bad_input([&] { check_groupable(body); }, {"passes through", "groups of particles"});
 }
 
 }  // namespace sinew::pass_through_test

@@ -214,10 +214,10 @@ probes:
     def test_what_a_deck_cannot_hold_is_refused_by_name(self):
         for machine, parts in (
                 ("loads: [{name: weight, gravity: [0, 0, -1]}]", ["nothing holds the body", "supports"]),
-                (PULL + "skeleton: {bones: [{name: a, head: [0, 0, 0], tail: [0, 0, 0.4]}]}", ["no bones", "supports"]),
-                (PULL + "world: {obstacles: [{name: floor, shape: plane}]}", ["no obstacles"]),
-                (PULL + "world: {pins: [{low: [-1, -1, -1], high: [1, 1, 0.1]}]}", ["no pins", "supports"]),
-                (PULL + "world: {fields: [{name: f, acceleration: [0, 0, 1]}]}", ["no fields"]),
+                (PULL + "skeleton: {bones: [{name: a, head: [0, 0, 0], tail: [0, 0, 0.4]}]}", ["bones and finite elements", "supports"]),
+                (PULL + "world: {obstacles: [{name: floor, shape: plane}]}", ["obstacles and finite elements"]),
+                (PULL + "world: {pins: [{low: [-1, -1, -1], high: [1, 1, 0.1]}]}", ["pins and finite elements", "supports"]),
+                (PULL + "world: {fields: [{name: f, acceleration: [0, 0, 1]}]}", ["fields and finite elements"]),
                 (PULL.replace("facing: [0, 0, 1]", "ids: [1, 2]"), ["no particles", "small.yaml:"]),
                 (PULL.replace("facing: [0, 0, 1]", "low: [1, 1, 1], high: [2, 2, 2]"), ["no node", "supports[1]"]),
                 (PULL + "  - {name: again, hold: z, facing: [0, 0, 1]}", ["'above' and 'again' both hold"]),
@@ -225,8 +225,8 @@ probes:
                  ["surface has no elements", "a box"])):
             self.write(machine)
             self.assert_one_line(sinew("export", self.scene, "--to", "calculix", "-o", self.folder / "a.inp"), 2, *parts)
-        for setting, parts in (("material.model=paper", ["the paper's material flows", "bonded"]),
-                               ("material.isotropic=false", ["isotropic"]), ("material.yield_strain=0.1", ["flow"]),
+        for setting, parts in (("material.model=paper", ["the paper's model and finite elements", "bonded"]),
+                               ("material.isotropic=false", ["isotropic"]), ("material.yield_strain=0.1", ["creep"]),
                                ("material.breaking_strain=0.1", ["break"]), ("solver.method=dynamic", ["static"])):
             self.write(PULL)
             self.assert_one_line(sinew("export", self.scene, "--to", "calculix", "--set", setting), 2, *parts)

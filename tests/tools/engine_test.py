@@ -209,12 +209,12 @@ class OnLammps(SmallRun):
             if name == "relax":
                 words += ["--set", "material.relaxation_times=[1]"]
             done = self.simulate(*ON_LAMMPS, 2, *words, check=2)
-            self.assert_one_line(done, 2, "engine lammps does not support", name, "without --engine")
+            self.assert_one_line(done, 2, name, "and engine lammps exclude each other", "without --engine")
             self.assertFalse(self.out.exists())
         for name, more in REFUSED.items():
             self.scene.write_text(self.text + more)
             done = self.simulate(*ON_LAMMPS, 2, check=2)
-            self.assert_one_line(done, 2, "small.yaml:", "engine lammps does not support " + name, "without --engine")
+            self.assert_one_line(done, 2, "small.yaml:", name + " and engine lammps exclude each other", "without --engine")
         self.scene.write_text(self.text)
         self.assert_one_line(self.simulate("--ranks", 2, check=2), 2, "--engine lammps")
         self.assert_one_line(self.simulate("--engine", "gromacs", check=2), 2, "gromacs", "built-in or lammps")

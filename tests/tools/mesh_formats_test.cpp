@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 #include <sinew/settings/table.h>
 
 namespace sinew::mesh_formats_test {

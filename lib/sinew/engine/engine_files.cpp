@@ -12,6 +12,7 @@
 #include <sinew/engine/detail/serialize.h>
 #include <sinew/engine/engine_world.h>
 #include <sinew/material/laws.h>
+#include <sinew/world/features.h>
 
 namespace sinew {
 namespace {
@@ -130,30 +131,10 @@ Error not_a_piece(const fs::path& file) {
   return bad_input(Place{file.string()}, "is no complete piece of a state", "start the run again");
 }
 
-/// Throws bad input; of a scene, refuse_for_engine() says it by name.
-void refuse_unsupported(const Body& body) {
-  const Material& material = body.material;
-  const char* unknown = body.world ? unknown_to_engines(*body.world) : nullptr;
-  const char* what = unknown != nullptr       ? unknown
-                     : bonds_change(material) ? "bonds that break, creep or relax"
-                     : !(body.local.empty() && body.density.empty())
-                         ? "parts that differ in more than stiffness"
-                     : material.friction > 0 ? "friction of a body on itself"
-                                             : nullptr;
-  if (what != nullptr)
-    throw bad_input(std::string("engines in other programs know no ") + what,
-                    "step this body with the built-in engine");
-  if (body.rigid_damping)
-    throw bad_input(
-        "engines in other programs know no damping relative to supports or to a body's "
-        "own motion",
-        "set material.damping_form to central, or step with the built-in engine");
-}
-
 }  // namespace
 
 void write_engine_run(const EngineFolder& folder, const EngineRun& run) {
-  refuse_unsupported(run.body);
+  refuse_conflicts(Feature::lammps, features_of(run.body));
   create_inner_folder(folder.path);
   const Rows rows(run.body);
   EngineSetup setup;

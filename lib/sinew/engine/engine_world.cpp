@@ -31,19 +31,6 @@ ObstaclePose pose_at(const double* numbers) {
 
 }  // namespace
 
-const char* unknown_to_engines(const World& world) {
-  for (const Obstacle& obstacle : world.obstacles)
-    if (std::holds_alternative<MeshShape>(obstacle.shape)) return "obstacles of meshes";
-  for (const ForceField& field : world.fields) {
-    if (std::holds_alternative<CustomForce>(field.form)) return "forces of one's own";
-    if (field.region.shape && std::holds_alternative<MeshShape>(*field.region.shape))
-      return "fields in meshes";
-  }
-  for (const Load& load : world.loads)
-    if (!load.faces.empty()) return "pressures";
-  return world.muscles.active.empty() ? nullptr : "muscles";
-}
-
 World engine_world(const World& world) {
   World known;
   known.obstacles = world.obstacles;

@@ -20,9 +20,6 @@
 
 namespace sinew {
 
-/// What engines do not know of a world, in words; none: nullptr.
-const char* unknown_to_engines(const World& world);
-
 /// All of it but the motions.
 World engine_world(const World& world);
 

@@ -17,6 +17,7 @@
 #include <sinew/groups/cubic/cubic_fits.h>
 #include <sinew/groups/cubic/quadrature.h>
 #include <sinew/material/laws.h>
+#include <sinew/world/features.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
@@ -280,29 +281,7 @@ bool supports_cubic_groups(const Body& body) {
   return law_of(body.material).has_bonds && has_affine_forces(body) && !keeps_volume(body);
 }
 
-void check_groupable(const Body& body) {
-  if (law_of(body.material).kernel != nullptr)
-    throw bad_input("groups know the bonds of springs alone, and not those of " +
-                        std::string(law_of(body.material).name),
-                    "set hierarchy.enabled to false");
-  if (bonds_change(body.material))
-    throw bad_input("bonds that break, flow or relax remember more than groups do",
-                    "remove breaking_strain, fracture_energy, yield_strain, relaxation_shares and "
-                    "relaxation_times");
-  if (!body.density.empty())
-    throw bad_input("groups are of particles of one mass", "remove density from materials");
-  if (body.pass_through.any())
-    throw bad_input("groups do not pass through each other", "set contact.pass_through to none");
-  for (const BoneSprings& springs : body.springs)
-    if (springs.max_force > 0)
-      throw bad_input("bones hold groups whatever it takes", "remove binding.max_force");
-  if (body.material.friction > 0)
-    throw bad_input("groups that touch each other do not rub", "remove material.friction");
-  if (!body.world) return;
-  if (body.world->drag.rate > 0 || !body.world->fields.empty())
-    throw bad_input("drag and fields act on every particle, those within groups as well",
-                    "remove them");
-}
+void check_groupable(const Body& body) { refuse_conflicts(Feature::groups, features_of(body)); }
 
 void check_groupable_as_it_moves(const Body& body) {
   check_groupable(body);

@@ -71,8 +71,7 @@ StretchRange stretch_range(const Body& body);
 /// Whether groups of the body may move by cubics: what acts within them are bonds alone.
 bool supports_cubic_groups(const Body& body);
 
-/// Throws bad input, which names what is wrong, where the body is no lattice of centers of
-/// inversion, or where forces on it depend on more than its neighbors.
+/// Throws bad input for features of the body that exclude groups (core/capabilities.h).
 void check_groupable(const Body& body);
 /// The same for groups that change: where obstacles press is known of what bones carry alone.
 void check_groupable_as_it_moves(const Body& body);

@@ -14,7 +14,7 @@
 #include <sinew/rig/motion_checks.h>
 #include <sinew/run/run_folder.h>
 #include <sinew/run/run_record.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 #include <sinew/scene/rig.h>
 #include <sinew/scene/scene_files.h>
 #include <sinew/settings/sections.h>

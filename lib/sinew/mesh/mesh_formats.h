@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of mesh formats, from which reading, error messages and help texts are made. To add a
 // format, write its reader (mesh_readers.h) and add its row; the rows of formats whose reader is in
-// another folder are passed as `more` (<sinew/scene/body.h>).
+// another folder are passed as `more` (<sinew/scene/body_mesh.h>).
 //
 //     const PolygonSoup soup = read_polygons("part.stl");
 #pragma once

@@ -11,7 +11,6 @@
 
 #include <sinew/engine/engine_files.h>
 #include <sinew/engine/engine_talk.h>
-#include <sinew/settings/settings.h>
 #include <sinew/stepping/simulation.h>
 
 namespace sinew {
@@ -28,9 +27,6 @@ struct Engine {
   std::function<EngineStatus(const std::function<Interruption()>& wanted)> next;
   std::function<void()> finish;  ///< ends it, before its time if need be
 };
-
-/// Throws bad input, naming the scene's line, for what engines in other programs cannot do.
-void refuse_for_engine(const Settings& settings, const std::string& engine);
 
 class EngineSteps {
  public:

@@ -19,12 +19,12 @@
 #include <string_view>
 #include <vector>
 
-#include <sinew/core/background.h>
 #include <sinew/core/triangles.h>
 #include <sinew/io/bone_table.h>
 #include <sinew/io/checksums.h>
 #include <sinew/io/point_cache.h>
 #include <sinew/io/series.h>
+#include <sinew/run/background.h>
 #include <sinew/run/frame_data.h>
 #include <sinew/run/probe_table.h>
 #include <sinew/run/support_table.h>

@@ -15,11 +15,13 @@
 #include <sinew/run/detail/run_log.h>
 #include <sinew/run/frame_writer.h>
 #include <sinew/run/run_record.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 #include <sinew/scene/check/needs.h>
 #include <sinew/scene/check/warnings.h>
+#include <sinew/scene/filling.h>
 #include <sinew/scene/prepare.h>
 #include <sinew/scene/rig.h>
+#include <sinew/settings/read_scene.h>
 #include <sinew/settings/write_scene.h>
 #include <sinew/stepping/frame_guard.h>
 
@@ -487,7 +489,7 @@ void say_what_is_doubtful(const Prepared& prepared, const SimulateOptions& optio
 
 RunResult simulate(const Settings& given, const RunFolder& folder, const SimulateOptions& options) {
   const Settings scene = with_mesh_files(with_fit(given), folder.meshes());
-  if (options.engine) refuse_for_engine(scene, options.engine->name);
+  if (options.engine) check_features(scene, {Feature::lammps});
   if (given.skeleton.fit != Fit::none) say(options, fit_text(scene.skeleton));
   refuse_foreign_files(folder);  // before anything is written there, a lock included
   const FolderLock lock(folder, create(folder));

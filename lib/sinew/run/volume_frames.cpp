@@ -13,7 +13,8 @@
 #include <sinew/io/series.h>
 #include <sinew/io/vtu.h>
 #include <sinew/material/laws.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
+#include <sinew/scene/filling.h>
 
 namespace sinew {
 

@@ -15,6 +15,7 @@
 #include <sinew/scene/element_parts.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
+#include <sinew/settings/read_scene.h>
 #include <sinew/world/region.h>
 
 namespace sinew {
@@ -24,58 +25,14 @@ constexpr double bonded_ratio = 0.25;  // Poisson's, of central forces
 constexpr double default_size = 4;     // radii: as many nodes as particles, or fewer
 constexpr double max_elements = 500'000;
 
-// What elements cannot hold.
-
-struct Refusal {
-  bool holds;
-  const char *key, *what, *cure;
-};
-
-std::vector<Refusal> refusals(const Settings& settings, bool modes) {
-  constexpr const char* by_support = "replace them by supports and loads";
-  const MaterialOptions& material = settings.material;
-  const WorldSettings& world = settings.world;
-  return {
-      {!modes && settings.solver.method != Method::static_equilibrium, "solver.method",
-       "finite elements are brought to equilibrium, and this scene moves in time",
-       "set solver.method to static, or give --frequency for its modes"},
-      {!modes && settings.supports.empty(), "solver.method", "nothing holds the body",
-       "add supports"},
-      {!settings.bones.empty() || !settings.skeleton.file.empty(), "skeleton",
-       "finite elements have no bones", "remove them, and hold the body by supports"},
-      {!world.obstacles.empty(), "world.obstacles", "finite elements have no obstacles",
-       by_support},
-      {!world.pins.empty(), "world.pins", "finite elements have no pins", by_support},
-      {!world.fields.empty(), "world.fields", "finite elements have no fields", by_support},
-      {!world.muscles.empty(), "world.muscles", "finite elements have no muscles", by_support},
-      {material.model == MaterialModel::paper, "material.model",
-       "the paper's material flows: finite elements are elastic",
-       "set material.model to bonded or bonded_volume"},
-      {!is_isotropic(material, settings.body.packing), "material.isotropic",
-       "finite elements are isotropic, and twelve bonds are not",
-       "remove it, and set body.packing to fcc"},
-      {material.breaking_strain || material.fracture_energy, "material",
-       "finite elements do not break", "remove breaking_strain and fracture_energy"},
-      {material.yield_strain.has_value(), "material.yield_strain", "finite elements do not flow",
-       "remove it"},
-      {std::any_of(settings.materials.begin(), settings.materials.end(),
-                   [](const auto& one) { return one.has_strength(); }),
-       "materials", "finite elements do not break or flow",
-       "remove breaking_strain and yield_strain"},
-      {std::any_of(settings.supports.begin(), settings.supports.end(),
-                   [](const auto& one) { return one.hold_along.has_value(); }),
-       "supports", "the supports of finite elements hold x, y or z, no oblique direction",
-       "hold axes of the scene"},
-      {!settings.bodies.empty(), "bodies", "finite elements are made of one mesh",
-       "join the meshes into one, and give parts by materials"},
-      {settings.body.thickness.has_value(), "body.thickness",
-       "finite elements fill a closed surface, not a layer", "give the layer as a closed mesh"},
-  };
-}
-
 void refuse_what_it_cannot_hold(const Settings& settings, const Surface& surface, bool modes) {
-  for (const Refusal& one : refusals(settings, modes))
-    if (one.holds) throw bad_input(settings.place(one.key), one.what, one.cure);
+  check_features(settings, {Feature::elements});
+  if (!modes && settings.solver.method != Method::static_equilibrium)
+    throw bad_input(settings.place("solver.method"),
+                    "finite elements are brought to equilibrium, and this scene moves in time",
+                    "set solver.method to static, or give --frequency for its modes");
+  if (!modes && settings.supports.empty())
+    throw bad_input(settings.place("solver.method"), "nothing holds the body", "add supports");
   if (!surface.closed())
     throw bad_input(settings.place("body.mesh"), "the mesh is open",
                     "set body.close_holes to true, or body.wrap");

@@ -108,19 +108,6 @@ bool leads_through_body(const Body& body, Motion motion) {
   return false;
 }
 
-void refuse_pose(const Settings& settings) {
-  const auto refuse = [&](const char* key, const char* what, const char* cure) {
-    throw bad_input(settings.place(key), what, cure);
-  };
-  if (settings.motion.preroll.value_or(0) > 0)
-    refuse("motion.preroll", "a body that begins in the first pose has no way to it",
-           "remove motion.preroll, or set motion.begin to rest");
-  if (settings.solver.method == Method::static_equilibrium)
-    refuse("motion.begin", "the static method begins at rest", "set motion.begin to rest");
-  if (settings.hierarchy.enabled)
-    refuse("motion.begin", "groups of particles begin at rest", "set motion.begin to rest");
-}
-
 /// Whether a body has a choice, and the scene does not make it.
 bool may_be_posed(const Settings& settings) {
   return settings.motion.preroll.value_or(0) == 0 &&
@@ -136,7 +123,6 @@ bool begins_far_from_rest(const Skeleton& skeleton, Motion clip) {
 Beginning begin_of(const Settings& settings, const Body& body, Motion& motion) {
   const Begin begin = settings.motion.begin;
   if (begin == Begin::rest || motion.tracks.empty()) return {};
-  if (begin == Begin::pose) refuse_pose(settings);
   if (!may_be_posed(settings)) return {};
   Motion clip = motion;
   const bool skipped = skip_rest(body.skeleton, clip);

@@ -31,23 +31,12 @@ double cubic_distance_of(const Body& body) {
 }
 
 void check_groups(const Settings& settings, const Body& body) {
-  const Place place = settings.place("hierarchy.enabled");
-  if (settings.body.packing != Packing::fcc)
-    throw bad_input(place, "only in fcc packings is each particle a center of its neighbors",
-                    "set body.packing to fcc, or hierarchy.enabled to false");
-  if (settings.solver.method != Method::dynamic)
-    throw bad_input(place, "equilibria are found for free particles",
-                    "set solver.method to dynamic, or hierarchy.enabled to false");
-  if (settings.solver.neighbor_search != NeighborSearch::lists)
-    throw bad_input(place, "the paper's cells have no groups",
-                    "set solver.neighbor_search to lists, or hierarchy.enabled to false");
   with_context(settings, "hierarchy.enabled", [&] { check_groupable(body); });
   if (settings.hierarchy.dynamic)
     with_context(settings, "hierarchy.dynamic", [&] { check_groupable_as_it_moves(body); });
   if (settings.hierarchy.motion != GroupForm::cubic) return;
-  const Place motion = settings.place("hierarchy.motion");
   if (!supports_cubic_groups(body))
-    throw bad_input(motion,
+    throw bad_input(settings.place("hierarchy.motion"),
                     "only in bonded bodies without volume terms, pairwise damping and obstacles do "
                     "groups move by cubics",
                     "set hierarchy.motion to auto");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/scene/initial_velocities.h>
 
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 
 namespace sinew {
 

@@ -10,9 +10,10 @@
 #include <sinew/core/text.h>
 #include <sinew/repair/read_surface.h>
 #include <sinew/rig/motion.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/damping.h>
+#include <sinew/scene/filling.h>
 #include <sinew/scene/first_pose.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/groups.h>
@@ -22,6 +23,7 @@
 #include <sinew/scene/rigid_parts.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
+#include <sinew/settings/read_scene.h>
 
 namespace sinew {
 
@@ -288,6 +290,7 @@ void complete(const Body& body, BodyFile& filled) {
 Prepared prepare(Scene scene) {
   Stopwatch watch;
   check_packing(scene.settings);
+  check_features(scene.settings);
   Prepared prepared;
   prepared.settings = with_fit(scene.settings);
   const Settings& settings = prepared.settings;

@@ -15,7 +15,8 @@
 #include <sinew/fill/fill_report.h>
 #include <sinew/groups/make_grouping.h>
 #include <sinew/rig/binding.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
+#include <sinew/scene/filling.h>
 #include <sinew/scene/first_pose.h>
 #include <sinew/scene/initial_velocities.h>
 #include <sinew/scene/intrusions.h>

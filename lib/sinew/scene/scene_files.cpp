@@ -7,7 +7,7 @@
 #include <sinew/core/text.h>
 #include <sinew/io/gltf/rig.h>
 #include <sinew/rig/bvh/bvh.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
 #include <sinew/scene/context.h>
 
 namespace sinew {
@@ -58,6 +58,39 @@ bool holds_rig(const std::filesystem::path& path) {
 }
 
 bool holds_mesh(const std::filesystem::path& path) { return !is_bvh(path); }
+
+bool is_scene(const std::filesystem::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
+
+void refuse_mesh_as_scene(const std::string& path) {
+  if (is_mesh(path))
+    throw bad_input({path}, "this is a mesh, not a scene",
+                    "make a scene of it: sinew new " + shell_quoted(path));
+  if (is_bvh(path))
+    throw bad_input({path}, "this is a rig, not a scene",
+                    "make a scene of it and a mesh: sinew new MESH " + shell_quoted(path));
+}
+
+void refuse_to_replace_scene(const std::filesystem::path& output) {
+  std::error_code missing;
+  if (is_scene(output) && std::filesystem::exists(output, missing))
+    throw bad_input(Place{output.string()}, "is a scene, and would be replaced",
+                    "give another name with -o");
+}
+
+void refuse_output(const std::string& output, std::initializer_list<std::string> inputs,
+                   const std::string& extension) {
+  if (std::filesystem::path(output).extension() != extension)
+    throw bad_input("'" + output + "' is no name for a " + extension + " file",
+                    "give a name that ends in " + extension);
+  std::error_code missing;
+  for (const std::string& input : inputs)
+    if (std::filesystem::equivalent(output, input, missing))
+      throw bad_input(Place{output}, "is an input, and would be replaced",
+                      "give another name with -o");
+  refuse_to_replace_scene(output);
+}
 
 SkinnedRig read_rig(const std::filesystem::path& path, const MotionOptions& motion) {
   if (is_bvh(path)) return {read_bvh_rig(path, motion), {}, {}};

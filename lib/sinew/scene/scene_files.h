@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files that a scene names beside its mesh, read before the work begins.
+// The files that a scene names beside its mesh, read before the work begins; what a path names, and
+// outputs that would replace what a command reads.
 //
 //     const SceneFiles files = read_files(settings);
 //     const Binding binding = bind_scene(settings, files, skeleton, rest, radius);
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
+#include <string>
 #include <vector>
 
 #include <sinew/mesh/surface.h>
@@ -21,6 +24,20 @@ inline constexpr const char* rig_formats = "BVH, glTF, GLB";
 /// Whether a file that is not YAML has a rig, and whether it may have a mesh: glTF may have both.
 bool holds_rig(const std::filesystem::path& path);
 bool holds_mesh(const std::filesystem::path& path);
+
+/// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
+bool is_scene(const std::filesystem::path& path);
+
+/// Throws bad input for a mesh or a BVH file, by its extension, where a scene is expected.
+void refuse_mesh_as_scene(const std::string& path);
+
+/// Throws bad input for an output that is there and a scene.
+void refuse_to_replace_scene(const std::filesystem::path& output);
+
+/// Throws Error (bad input) for an output of another extension, that is one of the inputs, or a
+/// scene.
+void refuse_output(const std::string& output, std::initializer_list<std::string> inputs,
+                   const std::string& extension = ".vtu");
 
 /// The rig of such a file, in its own directions and units. Throws bad input, with the path.
 SkinnedRig read_rig(const std::filesystem::path& path, const MotionOptions& motion);

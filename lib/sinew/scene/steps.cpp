@@ -278,10 +278,9 @@ void choose_static_solver(const Settings& settings, const Prepared& prepared, Lo
   if (why.empty() && asked != relaxation && (asked == newton || steps.cost.relaxation > quick))
     steps.cost = with_factor(steps.cost, prepared.body);
   if (why.empty() && steps.cost.nonzeros > max_factor)
-    why = "the factor of the tangent has over " + three_digits(max_factor) + " nonzeros";
+    why = "the factor of Newton's method has over " + three_digits(max_factor) + " nonzeros";
   if (asked == newton && !why.empty())
-    throw bad_input(settings.place("solver.static_solver"),
-                    "Newton's method does not apply: " + why,
+    throw bad_input(settings.place("solver.static_solver"), why,
                     "set solver.static_solver to auto or relaxation");
   const bool pays = clearly * steps.cost.newton < steps.cost.relaxation;
   steps.solver =

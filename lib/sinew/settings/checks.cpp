@@ -5,6 +5,7 @@
 #include <string>
 
 #include <sinew/core/arrays.h>
+#include <sinew/settings/read_scene.h>
 #include <sinew/settings/settings.h>
 #include <sinew/settings/table.h>
 
@@ -38,16 +39,6 @@ Place place_of(const Settings& settings, const char* first, const char* second) 
 
 void check_isotropy(const Settings& settings) {
   const MaterialOptions& material = settings.material;
-  if (material.isotropic.value_or(false)) {
-    if (!has_bonds(material.model))
-      throw bad_input(settings.place("material.isotropic"),
-                      "the paper's model has no bonds that could make it isotropic",
-                      "set material.model to bonded or bonded_volume, or remove it");
-    if (settings.body.packing == Packing::hcp)
-      throw bad_input(settings.place("material.isotropic"),
-                      "the hcp packing cannot be made isotropic",
-                      "set body.packing to fcc, or material.isotropic to false");
-  }
   if (keeps_volume(material.model) && !is_isotropic(material, settings.body.packing) &&
       (material.poisson_ratio < 0.26 || material.poisson_ratio > 0.45))
     throw bad_input(settings.place("material.poisson_ratio"),
@@ -56,49 +47,12 @@ void check_isotropy(const Settings& settings) {
                     "give one between, or set material.isotropic to true");
 }
 
-/// Parts of a body may be as stiff as they like where bonds have factors of their own.
-void check_local_modulus(const Settings& settings, const std::string& path, const char* what) {
-  const Place place = settings.place(path);
-  if (!is_isotropic(settings.material, settings.body.packing))
-    throw bad_input(place, std::string("only isotropic bonded ") + what + " differ in stiffness",
-                    "set material.model to bonded, and body.packing to fcc, or remove it");
-  if (settings.material.k1)
-    throw bad_input(place,
-                    std::string(what) + " differ in stiffness, but material.k1 gives that of all",
-                    "give material.young_modulus instead of k1");
-}
-
-void check_local_material(const Settings& settings, std::size_t index) {
-  const LocalMaterialSettings& material = settings.materials[index];
-  const std::string path = "materials[" + std::to_string(index) + "]";
-  if (material.is_elastic()) check_local_modulus(settings, path, "parts of a body");
-  if (material.poisson_ratio && !keeps_volume(settings.material.model))
-    throw bad_input(settings.place(path + ".poisson_ratio"),
-                    "Poisson's ratio of bonds alone is 1/4, whatever they are of",
-                    "set material.model to bonded_volume, or remove it");
-  if (material.has_strength() && !has_bonds(settings.material.model))
-    throw bad_input(
-        settings.place(path),
-        "material '" + material.name + "' has a strength of bonds, and the paper's model has none",
-        "set material.model to bonded or bonded_volume, or remove it");
-}
-
-void check_bodies(const Settings& settings) {
-  for (std::size_t i = 0; i < settings.bodies.size(); ++i)
-    if (settings.bodies[i].young_modulus)
-      check_local_modulus(settings, "bodies[" + std::to_string(i) + "].young_modulus", "bodies");
-  for (std::size_t i = 0; i < settings.materials.size(); ++i) check_local_material(settings, i);
-}
-
 /// Branches of bonds that relax.
 void check_relaxation(const Settings& settings) {
   const auto& ratios = settings.material.relaxation_shares;
   const auto& times = settings.material.relaxation_times;
   if (!ratios && !times) return;
   const Place place = place_of(settings, "material.relaxation_shares", "material.relaxation_times");
-  if (!has_bonds(settings.material.model))
-    throw bad_input(place, "the branches that relax are of bonds, and the paper's model has none",
-                    "set material.model to bonded or bonded_volume, or remove them");
   const std::size_t count = ratios ? ratios->size() : 0;
   if (count != (times ? times->size() : 0))
     throw bad_input(place, "relaxation_shares and relaxation_times are not of one length",
@@ -131,15 +85,12 @@ void check_rayleigh(const Settings& settings) {
                     "remove one of the two");
   const DampingForm by_default =
       has_bonds(material.model) ? DampingForm::rigid : DampingForm::paper;
-  if (material.damping_form.value_or(by_default) != DampingForm::rigid ||
-      settings.hierarchy.enabled)
-    throw bad_input(place, "material.rayleigh is for damping_form rigid, without hierarchy",
-                    "set material.model to bonded or bonded_volume, and remove damping_form and "
-                    "hierarchy");
+  if (material.damping_form.value_or(by_default) != DampingForm::rigid)
+    throw bad_input(place, "material.rayleigh is for damping_form rigid",
+                    "set material.model to bonded or bonded_volume, and remove damping_form");
 }
 
 void check_material(const Settings& settings) {
-  check_bodies(settings);
   check_relaxation(settings);
   check_rayleigh(settings);
   const MaterialOptions& material = settings.material;
@@ -148,35 +99,10 @@ void check_material(const Settings& settings) {
                     "attraction would end at b = " + number_text(material.b) +
                         " radii before it begins at a = " + number_text(material.a),
                     "give an a below b");
-  const bool bonded = has_bonds(material.model);
-  if (material.breaking_strain && material.fracture_energy)
-    throw bad_input(place_of(settings, "material.breaking_strain", "material.fracture_energy"),
-                    "material.fracture_energy sets the breaking strain, which is also given",
-                    "remove one of the two");
-  for (const char* key :
-       {"material.breaking_strain", "material.fracture_energy", "material.yield_strain"})
-    if (is_given(settings, key) && !bonded)
-      throw bad_input(settings.place(key),
-                      std::string(key) + " is of bonds, and the paper's model has none",
-                      "set material.model to bonded or bonded_volume, or remove it");
   check_isotropy(settings);
-  if (material.cohesion != Cohesion::all && bonded)
-    throw bad_input(settings.place("material.cohesion"),
-                    "bonded models attract only through their bonds",
-                    "remove material.cohesion, or set material.model to paper");
-  if (material.friction > 0 && !bonded && material.cohesion == Cohesion::all)
-    throw bad_input(settings.place("material.friction"),
-                    "parts that touch attract each other, and do not slide",
-                    "set material.cohesion to initial_neighbors or material.model to bonded, or "
-                    "remove it");
-  if (!material.modulus_direction) return;
-  if (material.modulus_direction->norm() == 0)
+  if (material.modulus_direction && material.modulus_direction->norm() == 0)
     throw bad_input(settings.place("material.modulus_direction"), "a direction without length",
                     "give [x, y, z], not all zero");
-  if (settings.body.packing != Packing::fcc)
-    throw bad_input(settings.place("material.modulus_direction"),
-                    "moduli along a direction are known for fcc only",
-                    "set body.packing to fcc, or remove it");
 }
 
 /// Reports errors at the scene's line.
@@ -241,75 +167,106 @@ void check_clip(const Settings& settings) {
                     "give an end after motion.start");
 }
 
-void check_contact(const Settings& settings) {
-  if (settings.hierarchy.enabled && settings.contact.pass_through.any())
-    throw bad_input(settings.place("contact.pass_through"),
-                    "groups of particles do not pass through each other",
-                    "remove contact.pass_through, or set hierarchy.enabled to false");
-  if (!settings.binding.max_force) return;
-  const Place place = settings.place("binding.max_force");
-  if (settings.binding.twist_form == TwistForm::open_loop)
-    throw bad_input(place, "the twist of open_loop stores no energy by which it could yield",
-                    "remove binding.max_force, or set binding.twist_form to servo");
-  if (settings.hierarchy.enabled)
-    throw bad_input(place, "bones hold groups of particles whatever it takes",
-                    "remove binding.max_force, or set hierarchy.enabled to false");
+/// The place of the first of these keys that the scene gives.
+Place place_of(const Settings& scene, const std::vector<std::string_view>& keys) {
+  for (const std::string_view key : keys)
+    if (const auto found = scene.places.find(key); found != scene.places.end())
+      return found->second;
+  return scene.place(keys.empty() ? "" : std::string(keys.front()));
 }
 
-/// Equilibria have no velocities.
-void check_at_rest(const Settings& settings) {
-  const auto check = [&](const BodyOptions& body, const std::string& path) {
-    if (!body.moves()) return;
-    const std::string key = path + (body.velocity.isZero(0) ? ".angular_velocity" : ".velocity");
-    throw bad_input(settings.place(key), "the static method knows no " + key,
-                    "remove it, or set solver.method to dynamic");
-  };
-  check(settings.body, "body");
-  for (std::size_t i = 0; i < settings.bodies.size(); ++i)
-    check(settings.bodies[i].body, "bodies[" + std::to_string(i) + "]");
-}
-
-/// What the static method does not know.
-void check_static(const Settings& settings) {
-  const SolverSettings& solver = settings.solver;
-  const auto refuse = [&](const char* key, const char* what, const char* cure) {
-    throw bad_input(settings.place(key), what, cure);
-  };
-  if (solver.method == Method::dynamic) {
-    if (is_given(settings, "solver.residual"))
-      refuse("solver.residual", "the dynamic method brings nothing to a residual",
-             "set solver.method to static, or remove it");
-    if (solver.static_solver != StaticSolver::automatic)
-      refuse("solver.static_solver", "the dynamic method finds no equilibria",
-             "set solver.method to static, or remove it");
-    return;
-  }
-  check_at_rest(settings);
-  if (solver.integrator != Integrator::symplectic_euler)
-    refuse("solver.integrator", "the static method integrates no motion in time",
-           "remove solver.integrator, or set solver.method to dynamic");
-  if (is_given(settings, "solver.time_step"))
-    refuse("solver.time_step", "the static method has no time step",
-           "remove solver.time_step, or set solver.method to dynamic");
-  if (solver.neighbor_search == NeighborSearch::cells)
-    refuse("solver.neighbor_search", "the static method searches neighbors by lists only",
-           "remove solver.neighbor_search, or set solver.method to dynamic");
-  if (settings.material.friction > 0)
-    refuse("material.friction", "friction has no one equilibrium",
-           "remove material.friction, or set solver.method to dynamic");
-  if (settings.binding.twist_form == TwistForm::open_loop)
-    refuse("binding.twist_form", "nothing balances the twist of open_loop",
-           "set binding.twist_form to servo, or solver.method to dynamic");
+Features features_of_material(const Settings& scene) {
+  using enum Feature;
+  const MaterialOptions& material = scene.material;
+  const bool bonded = has_bonds(material.model);
+  const bool at_rest = scene.solver.method == Method::static_equilibrium;
+  const bool parts = any_has(scene.materials, &LocalMaterialSettings::is_elastic) ||
+                     any_has(scene.bodies, &PartOptions::young_modulus);
+  return features_where({
+      {paper, !bonded},
+      {modulus_direction, material.modulus_direction.has_value()},
+      {bonds, bonded},
+      {bonds_alone, material.model == MaterialModel::bonded},
+      {k1, material.k1.has_value()},
+      {nearest_bonds, !is_isotropic(material, scene.body.packing)},
+      {isotropy, material.isotropic.value_or(false)},
+      {part_stiffness, parts},
+      {part_ratio, any_has(scene.materials, &LocalMaterialSettings::poisson_ratio)},
+      {part_volume, parts && keeps_volume(material.model)},
+      {part_density, any_has(scene.materials, &LocalMaterialSettings::density)},
+      {breaking, material.breaking_strain || material.fracture_energy ||
+                     any_has(scene.materials, &LocalMaterialSettings::breaking_strain)},
+      {yielding,
+       material.yield_strain || any_has(scene.materials, &LocalMaterialSettings::yield_strain)},
+      // In equilibria, bonds have relaxed.
+      {relaxing, material.relaxation_shares && !(at_rest && bonded)},
+      {rayleigh, material.rayleigh.has_value()},
+      {attraction, !bonded && material.cohesion == Cohesion::all},
+      {one_cohesion, material.cohesion != Cohesion::all},
+  });
 }
 
 }  // namespace
 
+Features features_of(const Settings& scene) {
+  using enum Feature;
+  const SolverSettings& solver = scene.solver;
+  const WorldSettings& world = scene.world;
+  const bool at_rest = solver.method == Method::static_equilibrium;
+  const bool moves =
+      !(scene.tracks.empty() && scene.motion.file.empty() && scene.skeleton.file.empty());
+  Features all = features_where({
+      {cells, solver.neighbor_search == NeighborSearch::cells},
+      {single_precision, solver.precision == Precision::binary32},
+      {groups, scene.hierarchy.enabled},
+      {equilibria, at_rest},
+      {integrator, solver.integrator != Integrator::symplectic_euler},
+      {motion, !at_rest},
+      {time_step, solver.time_step.has_value()},
+      {residual, solver.residual.has_value()},
+      {static_solver, solver.static_solver != StaticSolver::automatic},
+      {velocities, scene.moves_initially()},
+      {preroll, scene.motion.preroll.value_or(0) > 0},
+      {first_pose, scene.motion.begin == Begin::pose && moves},
+      {bodies, !scene.bodies.empty()},
+      {layer, scene.body.thickness.has_value()},
+      {other_packing, scene.body.packing != Packing::fcc},
+      {hcp, scene.body.packing == Packing::hcp},
+      {friction, scene.material.friction > 0},
+      {bones, !scene.bones.empty() || !scene.skeleton.file.empty()},
+      {pass_through, scene.contact.pass_through.any()},
+      {open_loop, scene.binding.twist_form == TwistForm::open_loop},
+      {max_force, scene.binding.max_force.has_value()},
+      {drag, world.drag > 0},
+      {obstacles, !world.obstacles.empty()},
+      {rough_obstacles, any_has(world.obstacles, &ObstacleSettings::friction)},
+      {mesh_obstacles,
+       any_has(world.obstacles, [](const auto& one) { return one.shape == ObstacleShape::mesh; })},
+      {pins, !world.pins.empty()},
+      {fields, !world.fields.empty()},
+      {muscles, !world.muscles.empty()},
+      {supports_along, any_has(scene.supports, &SupportSettings::hold_along)},
+      {pressures, any_has(scene.loads, &LoadSettings::pressure)},
+  });
+  all.merge(features_of_material(scene));
+  return all;
+}
+
+void check_features(const Settings& scene, const Features& more) {
+  Features all = features_of(scene);
+  all.insert(more.begin(), more.end());
+  for (const Feature other : all)
+    if (const auto conflict = conflict_with(other, all))
+      throw bad_input(place_of(scene, conflict->feature.keys), conflict->what, conflict->cure);
+}
+
 std::span<const EitherOr> either_or() {
-  static constexpr std::array<EitherOr, 4> pairs = {{
+  static constexpr std::array<EitherOr, 5> pairs = {{
       {"body.radius", "body.count", true},
       {"material.young_modulus", "material.k1", false},
       {"material.lambda", "material.k2", false},
       {"material.damping", "material.damping_ratio", false},
+      {"material.breaking_strain", "material.fracture_energy", false},
   }};
   return pairs;
 }
@@ -347,10 +304,9 @@ void check_together(const Settings& settings) {
   check_bone_count(settings);
   check_axes(settings);
   check_clip(settings);
-  check_contact(settings);
   check_output(settings);
   check_box(settings, "hierarchy.free_region", settings.hierarchy.free_region);
-  check_static(settings);
+  check_features(settings);
   const double duration = settings.solver.duration, interval = settings.output.interval;
   if (duration > 0 && interval > duration)
     throw bad_input(

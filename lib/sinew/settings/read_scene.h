@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include <sinew/core/capabilities.h>
 #include <sinew/settings/settings.h>
 #include <sinew/settings/yaml_tree.h>
 
@@ -45,5 +46,11 @@ Settings scene_from_text(const std::string& text, const std::string& name,
 /// The settings of a body alone: a mesh to be filled, with overrides for the sections body and
 /// material; all else has its defaults. Throws bad input as read_scene() does.
 Settings settings_of_mesh(const std::filesystem::path& mesh, std::span<const Override> overrides);
+
+/// The features of a scene that the table of core/capabilities.h knows.
+Features features_of(const Settings& scene);
+/// Throws bad input, with the scene's line, where two of its features exclude each other, or one of
+/// `more`.
+void check_features(const Settings& scene, const Features& more = {});
 
 }  // namespace sinew

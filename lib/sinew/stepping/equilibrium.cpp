@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include <sinew/core/capabilities.h>
 #include <sinew/core/error.h>
 #include <sinew/core/simulation_state.h>
 #include <sinew/core/text.h>
@@ -327,9 +328,8 @@ void stop(Pose& pose) {
 }
 
 Relaxation::Iteration relaxation_of(const Body& body, Stepper& stepper, double step) {
-  if (!stepper.relaxes() || body.grouping)
-    throw bad_input("the reference stepper and groups relax nothing",
-                    "search neighbors by lists, and leave all particles free");
+  if (body.grouping) refuse_conflicts(Feature::equilibria, {Feature::groups});
+  if (!stepper.relaxes()) refuse_conflicts(Feature::equilibria, {Feature::cells});
   SimulationState state;
   stepper.save(state);
   const Box box = bounds(body.rest).translated(-state.fixed_point_units.origin);

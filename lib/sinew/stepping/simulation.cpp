@@ -10,6 +10,7 @@
 #include <sinew/body/ledger.h>
 #include <sinew/body/solid.h>
 #include <sinew/body/step_plan.h>
+#include <sinew/core/capabilities.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/groups/make_grouping.h>
@@ -344,8 +345,7 @@ std::int64_t Simulation::regroupings() const {
 }
 
 void Simulation::enable_dynamic_groups(const DynamicOptions& options) {
-  if (!its_->stepper->has_groups())
-    throw bad_input("the paper's cells have no groups", "search neighbors by lists");
+  if (!its_->stepper->has_groups()) refuse_conflicts(Feature::groups, {Feature::cells});
   check_groupable_as_it_moves(*its_->body);
   move_in(make_grouping(*its_->body, std::vector<std::int32_t>(its_->body->rest.size(), -1),
                         none_cubic, options.near));

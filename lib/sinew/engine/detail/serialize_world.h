@@ -33,7 +33,7 @@ void serialize(Archive& archive, BoxShape& box) {
   archive(box.rotation);
 }
 
-/// Refused before: see unknown_to_engines().
+/// Refused before: see core/capabilities.h.
 template <class Archive>
 void serialize(Archive&, MeshShape&) {}
 template <class Archive>

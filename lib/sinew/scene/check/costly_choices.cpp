@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/scene/check/costly_choices.h>
-
 #include <algorithm>
 
 #include <sinew/core/text.h>
+#include <sinew/scene/check/warnings.h>
 #include <sinew/scene/steps.h>
 #include <sinew/scene/world.h>
 

@@ -12,7 +12,6 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/text.h>
 #include <sinew/rig/motion_checks.h>
-#include <sinew/scene/check/costly_choices.h>
 #include <sinew/scene/rigid_parts.h>
 #include <sinew/world/world.h>
 

@@ -20,4 +20,8 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
 /// material that sticks to itself.
 void warn_of_contacts(const Prepared& prepared, std::vector<std::string>& warnings);
 
+/// One line for each choice without which the run would take less than a third of its steps: what
+/// it is, how often, and the cure.
+std::vector<std::string> costly_choices(const Prepared& prepared);
+
 }  // namespace sinew

@@ -17,7 +17,8 @@
 #include <sinew/mesh/winding.h>
 #include <sinew/repair/curve_skeleton.h>
 #include <sinew/rig/limbs.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/body_mesh.h>
+#include <sinew/scene/filling.h>
 #include <sinew/scene/new/detail/size.h>
 
 namespace sinew {

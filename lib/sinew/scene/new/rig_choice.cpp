@@ -15,7 +15,6 @@
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
 #include <sinew/rig/rest_at.h>
-#include <sinew/scene/body.h>
 #include <sinew/scene/first_pose.h>
 #include <sinew/scene/scene_files.h>
 

@@ -15,7 +15,7 @@
 #include <sinew/fill/fill_limits.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/winding.h>
-#include <sinew/scene/body.h>
+#include <sinew/scene/filling.h>
 #include <sinew/scene/rigid_parts.h>
 
 namespace sinew {

@@ -7,7 +7,6 @@
 #include <sinew/core/file.h>
 #include <sinew/mesh/mesh_formats.h>
 #include <sinew/mesh/refine.h>
-#include <sinew/scene/body.h>
 #include <sinew/scene/scene_files.h>
 
 namespace sinew {

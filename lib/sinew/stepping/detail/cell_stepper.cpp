@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <sinew/body/pair_pass.h>
+#include <sinew/core/capabilities.h>
 #include <sinew/core/parallel.h>
 #include <sinew/material/laws.h>
 #include <sinew/world/references.h>
@@ -37,8 +38,7 @@ CellStepper::CellStepper(std::shared_ptr<const Body> body, const Stepping& stepp
       stepping_(stepping),
       particles_(std::move(particles)),
       references_(body_) {
-  if (body_->grouping)
-    throw bad_input("the reference stepper has no groups", "search neighbors by lists");
+  if (body_->grouping) refuse_conflicts(Feature::groups, {Feature::cells});
   solid_ = solid_of(*body_, particles_);
   references_.set_order(particles_.id);
   sliding_ = SlidingContacts(*body_);

@@ -4,12 +4,10 @@
 //     const kernel::LawFunctions<Real> work = law_functions(body, kernel);
 #pragma once
 
-#include <string>
-
 #include <sinew/body/body.h>
-#include <sinew/core/error.h>
 #include <sinew/kernel/kernel.h>
 #include <sinew/material/laws.h>
+#include <sinew/world/features.h>
 
 namespace sinew {
 
@@ -26,16 +24,11 @@ inline kernel::PairLaw kernel_law(const Body& body) {
 /// Throws bad input for changing bonds, or a precision, that the material's own law does not know.
 template <class Real>
 kernel::LawFunctions<Real> law_functions(const Body& body, const kernel::Functions<Real>& kernel) {
-  const Material& material = body.material;
-  const kernel::OwnLaw* own = law_of(material).kernel;
+  const kernel::OwnLaw* own = law_of(body.material).kernel;
   if (own == nullptr) return kernel.law[kernel_law(body)];
-  const std::string name(law_of(material).name);
-  if (bonds_change(material))
-    throw bad_input("the bonds of " + name + " keep their lengths, and never break",
-                    "leave out strength and relaxation");
-  if (own->in<Real>().count == nullptr)
-    throw bad_input("the law " + name + " has no steps in this precision",
-                    "set solver.precision to the other one");
+  Features features = features_of(body);
+  if (own->in<Real>().count == nullptr) features.insert(Feature::law_without_precision);
+  refuse_conflicts(Feature::lists, features);
   return own->in<Real>();
 }
 

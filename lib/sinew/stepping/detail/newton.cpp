@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <sinew/body/step_plan.h>
-#include <sinew/material/laws.h>
 #include <sinew/stepping/equilibrium.h>
+#include <sinew/world/features.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
@@ -18,16 +18,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // A correction may turn or strain any pair by so much: by more, the tangent says nothing.
 constexpr double max_correction = 0.3;
-
-std::string why_not_in(const World& world) {
-  for (const Obstacle& one : world.obstacles)
-    if (one.friction > 0 || one.stick > 0) return "obstacles rub";
-  for (const Load& load : world.loads)
-    if (load.pressure != 0) return "a pressure follows the surface";
-  for (const Pinned& pin : world.pins)
-    if (pin.is_oblique()) return "a roller is oblique";
-  return "";
-}
 
 /// Particles that are as many bonds from one end of a piece of the body.
 struct Layer {
@@ -116,16 +106,10 @@ double banded_nonzeros(const std::vector<Layer>& layers, bool keeps_volume) {
 }  // namespace
 
 std::string why_not_newton(const Body& body, const Stepping& stepping) {
-  if (!law_of(body.material).has_bonds) return "bodies without bonds flow";
-  if (law_of(body.material).kernel != nullptr) return "the law is a program's own";
-  if (bonds_change(body.material) || !body.local.breaking.empty() || !body.local.yield.empty())
-    return "bonds break or flow";
-  if (body.material.friction > 0) return "parts of the body rub";
-  if (body.pass_through.any()) return "parts of the body pass through each other";
-  for (const BoneSprings& springs : body.springs)
-    if (springs.max_force > 0) return "the holds of bones yield";
-  if (stepping.precision == Precision::binary32) return "single precision hides the tangent";
-  return body.world ? why_not_in(*body.world) : "";
+  Features features = features_of(body);
+  if (stepping.precision == Precision::binary32) features.insert(Feature::single_precision);
+  const auto conflict = conflict_with(Feature::newton, features);
+  return conflict ? conflict->what : "";
 }
 
 StaticCost relaxation_cost(const Body& body, double residual) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/core/background.h>
+#include <sinew/run/background.h>
 
 #include <utility>
 
