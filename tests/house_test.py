@@ -86,6 +86,8 @@ GIVEN_UP = {
     r"//+<? (Of|By|That|Those|As|From)\b": "a comment that begins with a noun or a verb",
     r"\bmost_(?!common\b)\w+|\bleast_\w+": "max_ or min_",
 }
+# Trailing comments begin with a noun or a verb as well.
+TRAILING = re.compile(r"^\s*[^\s/].*?//+<? (of|by|that|those|as|from)\b")
 
 
 def is_installed(name):
@@ -267,6 +269,12 @@ def word_breaches(source, path):
                 yield f"{path.relative_to(source)}:{number}: {re.search(pattern, line).group(0)!r}, now {instead}"
 
 
+def trailing_breaches(source, path):
+    for number, line in enumerate(path.read_text().split("\n"), 1):
+        if TRAILING.match(line):
+            yield f"{path.relative_to(source)}:{number}: a trailing comment that begins with no noun or verb"
+
+
 def source_files(source):
     for folder in ("lib", "tools", "tests"):
         for path in sorted((source / folder).rglob("*")):
@@ -303,6 +311,7 @@ def breaches(source):
     yield from linkage_breaches(lib)
     for path in product_files(source):
         yield from place_breaches(source, path)
+        yield from trailing_breaches(source, path)
     for path in source_files(source):
         yield from license_breaches(source, path)
         yield from size_breaches(source, path)

@@ -52,7 +52,7 @@ struct Exclusion {
 struct FeatureRow {
   Feature feature;
   std::string_view words;
-  std::vector<std::string_view> keys;  ///< of a scene; none: a program or a command chooses it
+  std::vector<std::string_view> keys;  ///< settings; none: a program or a command chooses it
   std::vector<Exclusion> excluded_by;
   std::string_view cure;  ///< "": to remove the key; "=word": to set it to that
 };

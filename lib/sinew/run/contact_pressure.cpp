@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t particles_pressed_at_a_time = 1024, faces_at_a_time = 64;
 constexpr double part_size = 1.0 / 3;  // radii: an area is then within some 2 %
-constexpr double min_facing = 0.5;     // of the cosine between a face and what presses on it
+constexpr double min_facing = 0.5;     // cosine between a face and what presses on it
 constexpr double owned_range = 3;      // radii: farther from all particles, a surface is nobody's
 
 /// The area along the outward normal.
@@ -153,14 +153,14 @@ SurfaceContact ContactPressure::at(const Points& points, const Points& positions
     if (!along[i].isZero(0) && owns_[i] == 0)  // deeper than the outermost layer
       if (const std::uint32_t owner = nearest_owner(i); owner != i)
         force[owner] += force[i], others[owner] += others[i], along[owner] += along[i];
-  Points area;  // by face, as vectors
+  Points area;  // area vectors, one per face
   for (const auto& face : faces_) area.push_back(area_of(points, face));
   const auto faces_it = [&](const Share& share) {
     return -area[share.face].dot(along[share.particle]) >
            min_facing * area[share.face].norm() * along[share.particle].norm();
   };
   std::vector<double> owned(force.size()), facing(force.size());
-  Points normal(force.size(), Vec3::Zero());  // of what faces it, by area
+  Points normal(force.size(), Vec3::Zero());  // normal of what faces it, by area
   for (const Share& share : shares_) {
     const double part = area[share.face].norm() * share.corner.sum();
     owned[share.particle] += part;
@@ -168,7 +168,7 @@ SurfaceContact ContactPressure::at(const Points& points, const Points& positions
     facing[share.particle] += part;
     normal[share.particle] += share.corner.sum() * area[share.face];
   }
-  for (std::size_t i = 0; i < force.size(); ++i)  // those of others are tilted: they interlock
+  for (std::size_t i = 0; i < force.size(); ++i)  // normals of others are tilted: they interlock
     force[i] +=
         facing[i] > 0 ? std::max(0.0, -others[i].dot(normal[i].normalized())) : others[i].norm();
   SurfaceContact on = {std::vector<double>(points.size()), std::vector<double>(points.size())};

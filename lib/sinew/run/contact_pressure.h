@@ -21,7 +21,7 @@ namespace sinew {
 /// What presses on the surface, by point.
 struct SurfaceContact {
   std::vector<double> pressure;  ///< Pa, 0 without contact
-  std::vector<double> area;      ///< of its part that is in contact, m^2
+  std::vector<double> area;      ///< area of its part that is in contact, m^2
 };
 
 class ContactPressure {
@@ -57,9 +57,9 @@ class ContactPressure {
 
   const Body& body_;
   std::vector<std::array<int, 3>> faces_;
-  std::vector<Share> shares_;          ///< by face
-  std::vector<char> owns_;             ///< by particle: whether it has a share
-  std::vector<std::int32_t> body_of_;  ///< by particle: the lowest number of what hangs together
+  std::vector<Share> shares_;          ///< index: face
+  std::vector<char> owns_;             ///< index: particle; whether it has a share
+  std::vector<std::int32_t> body_of_;  ///< index: particle; lowest number of what hangs together
 };
 
 }  // namespace sinew

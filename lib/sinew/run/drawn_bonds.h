@@ -17,7 +17,7 @@ namespace sinew {
 struct DrawnBond {
   std::array<int, 2> ends{};                    ///< particles in the written order
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< m
-  double value = 0;                             ///< of the quantity
+  double value = 0;                             ///< value of the quantity
 };
 
 class DrawnBonds {

@@ -83,7 +83,7 @@ std::vector<DrawnPull> DrawnPulls::at(const FrameState& frame) const {
 }
 
 double DrawnPulls::negligible() const {
-  constexpr double rounding = 1e-6;  // of a radius: frames hold displacements in single precision
+  constexpr double rounding = 1e-6;  // fraction of a radius: frames are in single precision
   double stiffest = 0;
   for (const BoneSprings& springs : springs_) stiffest = std::max(stiffest, springs.stiffest());
   return rounding * run_->body.particles.radius * stiffest;

@@ -21,11 +21,11 @@ namespace sinew {
 struct DrawnPull {
   std::size_t particle = 0;  ///< in the written order
   int bone = no_bone;
-  Vec3 reference = Vec3::Zero(), position = Vec3::Zero();  ///< of bone and particle, m
+  Vec3 reference = Vec3::Zero(), position = Vec3::Zero();  ///< places of bone and particle, m
   Vec3 radial = Vec3::Zero();                              ///< N; of an anchor its whole spring
   Vec3 twist = Vec3::Zero(), axial = Vec3::Zero();         ///< N
 
-  double strongest() const;  ///< of the three, N
+  double strongest() const;  ///< strongest of the three, N
 };
 
 class DrawnPulls {

@@ -14,7 +14,7 @@ EngineSteps::EngineSteps(Engine engine, const std::filesystem::path& folder,
                          int frames, std::optional<EnginePieces> pieces)
     : engine_(std::move(engine)), folder_{folder}, ids_(simulation.particles().id) {
   std::error_code missing;
-  std::filesystem::remove_all(folder, missing);  // of a run that failed
+  std::filesystem::remove_all(folder, missing);  // clears what a run that failed has left
   write_engine_run(
       folder_, {simulation.body(), motion, stepping, plan, steps_per_frame, frames,
                 simulation.particles().mass, simulation.save(), ids_, false, std::move(pieces)});

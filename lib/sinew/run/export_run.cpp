@@ -20,7 +20,7 @@ std::vector<std::string> names_of(const Skeleton& skeleton) {
 }
 
 void check_time(double time, const RunFiles& run) {
-  constexpr double slack = 1e-6;  // of the run: times are typed in a few digits
+  constexpr double slack = 1e-6;  // fraction of the run: times are typed in a few digits
   const double first = run.particle_rows.front().time, last = run.particle_rows.back().time;
   if (!(time >= first && time <= last + slack * (last - first)))
     throw bad_input("there is no frame at " + number_text(time) + " s",

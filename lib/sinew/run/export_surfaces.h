@@ -20,7 +20,7 @@ bool is_surface_file(std::string_view extension);
 
 struct SurfaceExport {
   std::string series = "surface";  ///< or skin_lbs, skin_dqs
-  std::string extension;           ///< of is_surface_file()
+  std::string extension;           ///< one of is_surface_file()
 };
 
 struct ExportedSurfaces {

@@ -46,7 +46,7 @@ using SkinningMethod = Points (*)(const Points&, const BoneWeights&, const Skele
 struct FrameMoment {
   Moment moment;
   bool with_particles = false;  ///< else without forces and counts
-  Points positions;             ///< by id
+  Points positions;             ///< index: particle id
   Particles particles;          ///< without positions
   Forces forces;
   std::shared_ptr<const Grouping> grouping;
@@ -66,10 +66,10 @@ struct FrameMoment {
 /// What frames contain beside the body.
 struct FrameScene {
   Triangles surface = {};                  ///< the body's skin at rest
-  std::vector<Triangles> obstacles = {};   ///< of its world, each in its own frame
-  SurfaceLook look = {};                   ///< of the exported surface
+  std::vector<Triangles> obstacles = {};   ///< obstacles of its world, each in its own frame
+  SurfaceLook look = {};                   ///< look of the exported surface
   std::vector<Probe> probes = {};          ///< for probes.csv; none: measured() is not asked for
-  SharedNeighbors neighbors = {};          ///< of the body at rest; none: its own, or searched
+  SharedNeighbors neighbors = {};          ///< neighbors at rest; none: the body's own, or searched
   std::optional<VolumeCells> volume = {};  ///< cells between its particles, where they are written
 };
 
@@ -154,14 +154,14 @@ class FrameData {
   RequestedArrays arrays_;                        ///< additional ones
   ParticleSelection on_skin_;                     ///< the arrays that the surface has of particles
   RequestedArrays on_skin_too_;                   ///< and these
-  std::vector<std::string_view> contact_arrays_;  ///< of the surface
+  std::vector<std::string_view> contact_arrays_;  ///< contact arrays of the surface
   std::optional<ContactPressure> contacts_;       ///< which these are found by, if any
   std::vector<Column> skin_columns_;       ///< measured ones of the moment, once they are found
   std::optional<ParticleMeter> measured_;  ///< which these and bonds are computed from, if any
   FrameMoment now_;
   std::optional<VolumeFrames> volume_;
   bool single_;                              ///< files have Float32
-  std::vector<std::int32_t> group_, level_;  ///< of the particles that were last asked for
+  std::vector<std::int32_t> group_, level_;  ///< groups and levels of particles last asked for
 };
 
 }  // namespace sinew

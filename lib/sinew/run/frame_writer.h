@@ -78,17 +78,17 @@ class FrameWriter {
 
   std::filesystem::path folder_;
   const Body& body_;
-  FrameData data_;             ///< of the frame that is being written
-  std::size_t every_;          ///< of so many frames, one contains particles
+  FrameData data_;             ///< data of the frame that is being written
+  std::size_t every_;          ///< number of frames of which one contains particles
   std::size_t taken_;          ///< frames so far
-  std::deque<Series> series_;  ///< as data_ names them: particles, surface, ...
+  std::deque<Series> series_;  ///< order of data_: particles, surface, ...
   BoneTable bone_table_;
   std::optional<SupportTable> support_table_;  ///< where the scene has some, or loads
   std::optional<ProbeTable> probe_table_;      ///< where the scene has some
   std::unique_ptr<PointCache> export_;
-  Vec3 export_origin_ = Vec3::Zero();      ///< of its places, m
-  SurfaceLook look_;                       ///< of the exported surface
-  std::vector<std::array<int, 3>> faces_;  ///< of the surface
+  Vec3 export_origin_ = Vec3::Zero();      ///< origin of its places, m
+  SurfaceLook look_;                       ///< look of the exported surface
+  std::vector<std::array<int, 3>> faces_;  ///< faces of the surface
   std::optional<Checksums> checksums_;
   std::vector<std::size_t> listed_;  ///< frames of each series whose checksums are
   std::atomic<int> written_ = 0;

@@ -146,7 +146,7 @@ namespace {
 
 /// A quantity whose components are columns beside each other, and its size.
 struct Quantity {
-  const char* first;  ///< of the components: "force_x"
+  const char* first;  ///< first of the components: "force_x"
   const char *title, *note, *unit;
   std::size_t components;
   double (*size)(const double*);

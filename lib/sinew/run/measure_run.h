@@ -27,7 +27,7 @@ namespace sinew {
 
 /// A series of reference surfaces; frames are selected by their time.
 struct SurfaceSeries {
-  std::filesystem::path folder;  ///< that the paths of its rows are relative to
+  std::filesystem::path folder;  ///< folder of the paths in its rows
   std::vector<PvdRow> rows;
 };
 
@@ -51,8 +51,8 @@ struct Measured {
   Summary summary;
   std::vector<Check> checks;
   Playback playback;
-  std::vector<BoneMetrics> bones;        ///< of every frame
-  std::vector<SectionMetrics> sections;  ///< of every frame
+  std::vector<BoneMetrics> bones;        ///< rows of every frame
+  std::vector<SectionMetrics> sections;  ///< rows of every frame
 };
 
 struct MeasureOptions {

@@ -43,7 +43,7 @@ class ParticleMeter {
  private:
   std::shared_ptr<const World> world_;
   RestBody rest_;
-  std::map<std::string, RequestedArrays, std::less<>> asked_;  ///< by words
+  std::map<std::string, RequestedArrays, std::less<>> asked_;  ///< index: words
 };
 
 }  // namespace sinew

@@ -18,7 +18,7 @@ constexpr const char* probe_columns =
     "strain_xy,strain_yz,strain_xz,stress_xx,stress_yy,stress_zz,stress_xy,stress_yz,stress_xz,"
     "force_x,force_y,force_z";
 
-constexpr std::size_t components = 6;  // of a symmetric tensor
+constexpr std::size_t components = 6;  // components of a symmetric tensor
 using Tensor = std::array<double, components>;
 
 /// The mean of the tensors that are known, by weight; not-a-number without any.
@@ -69,7 +69,7 @@ std::optional<double> modulus_asked(const Body& body, const Probe& probe) {
 
 std::optional<std::pair<double, double>> uniaxial(std::span<const double, 6> stress,
                                                   std::span<const double, 6> strain) {
-  constexpr double beside = 0.05, smallest_strain = 1e-5;  // that single precision resolves
+  constexpr double beside = 0.05, smallest_strain = 1e-5;  // values that single precision resolves
   const Mat3 of_stress = matrix_of(stress), of_strain = matrix_of(strain);
   if (!of_stress.allFinite() || !of_strain.allFinite()) return std::nullopt;
   Vec3 s = eigenvalues(of_stress);

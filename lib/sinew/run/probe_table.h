@@ -24,7 +24,7 @@ namespace sinew {
 /// are not known.
 struct ProbedValues {
   std::span<const double> strain, stress;  ///< 6 each; Pa
-  const Points& force;                     ///< of the world, N; empty: none
+  const Points& force;                     ///< force of the world, N; empty: none
 };
 
 /// Young's modulus as a probe shows it: where its mean stress is uniaxial.

@@ -74,7 +74,7 @@ LawCurve bone_curve(const std::vector<BoneSprings>& springs, const Skeleton& ske
   const bool anchored = springs.front().form == BoneForce::anchor;
   curve.note = anchored ? "f = −k_b (x − q), q its position in the rigid pose of the bone."
                         : "Radial: f = −k_b (|x − p| − l0), p the nearest point of the bone.";
-  constexpr std::size_t max_bones = 6;  // as many lines as can be distinguished
+  constexpr std::size_t max_bones = 6;  // lines that can be distinguished
   for (std::size_t b = 0; b < std::min(springs.size(), max_bones); ++b)
     curve.lines.push_back(sampled(skeleton.bones[b].name.c_str(), -2, 2,
                                   [&](double x) { return -springs[b].radial * x * r; }));

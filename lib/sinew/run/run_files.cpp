@@ -131,7 +131,7 @@ void read_particles(const RunFiles& run, std::size_t index, FrameState& frame) {
     frame.energies = energies_of(data);
     frame.unbalanced = {field_if_there(data, "unbalanced_force"),
                         field_if_there(data, "unbalanced_moment")};
-    if (find(data.point_columns, "broken_bonds") && run.ids.empty())  // of bonds that are all there
+    if (find(data.point_columns, "broken_bonds") && run.ids.empty())  // else some bonds are missing
       frame.broken_bonds = integers(data.point_columns, "broken_bonds");
     if (find(data.point_columns, "group")) frame.group = integers(data.point_columns, "group");
     if (find(data.point_columns, "von_mises"))
@@ -435,7 +435,7 @@ RestInput measured_body(const RunFiles& run) {
   input.material = run.material;
   input.density = run.body.density.value_or(std::vector<double>{});
   RestForces& forces = input.forces;
-  if (!run.ids.empty()) {  // of particles that are not there, forces act as well
+  if (!run.ids.empty()) {  // particles that are not there act as well
     input.layer = layers_of_part(run);
     forces.known = false;
     return input;

@@ -32,18 +32,18 @@ struct RunFiles {
   std::string scene_text;
   Settings settings;
   Skeleton skeleton;
-  Material material;              ///< of the whole body
+  Material material;              ///< material of the whole body
   BodyFile body;                  ///< the particles in the frames at rest, with their bones
-  std::vector<std::int32_t> ids;  ///< of these particles in the body; empty: all of them
+  std::vector<std::int32_t> ids;  ///< ids of these particles in the body; empty: all of them
   Triangles surface;              ///< at rest
-  std::vector<std::int32_t> surface_bone;  ///< that moves each point most, -1 for none
+  std::vector<std::int32_t> surface_bone;  ///< bone that moves each point most, -1 for none
   std::vector<PvdRow> particle_rows, surface_rows, frame_rows;  ///< equally many of each
-  std::vector<PvdRow> lbs_rows, dqs_rows;  ///< of the skinned surfaces; none if not written
+  std::vector<PvdRow> lbs_rows, dqs_rows;  ///< rows of the skinned surfaces; none if not written
   std::vector<PvdRow> obstacle_rows;       ///< none without obstacles
-  std::vector<PvdRow> support_rows;        ///< of supports and loads; none without
+  std::vector<PvdRow> support_rows;        ///< support rows of supports and loads; none without
   std::vector<PvdRow> bond_rows;           ///< none if not written
 
-  std::size_t frames_named = 0;  ///< by the longest series
+  std::size_t frames_named = 0;  ///< frames of the longest series
 
   std::size_t frames() const { return particle_rows.size(); }
 };

@@ -86,7 +86,7 @@ std::string status_of(const RunFolder& folder) {
 }
 
 std::string scene_name(const RunFolder& folder) {
-  constexpr std::string_view usual = "scene";  // as it is named in the folder of a run
+  constexpr std::string_view usual = "scene";  // name in the folder of a run
   Json words;
   if (std::filesystem::exists(folder.record()))
     words = read_record(folder).value("command", Json::array());

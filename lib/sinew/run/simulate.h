@@ -22,12 +22,12 @@ namespace sinew {
 /// How far a run is.
 struct RunProgress {
   int frame = 0, frames = 0;  ///< the last one is number `frames`
-  double time = 0;            ///< of the scene, s
+  double time = 0;            ///< time of the scene, s
   std::int64_t steps = 0;
   double waited = 0;  ///< s that stepping has waited for the disk
   /// On the way to the next equilibrium, every thousand; 0: a frame has been written.
   std::int64_t iterations = 0;
-  double residual = 0;  ///< by then
+  double residual = 0;  ///< residual by then
 };
 
 struct SimulateOptions {
@@ -35,7 +35,7 @@ struct SimulateOptions {
   bool resume = false;                           ///< continue a run that was stopped
   std::vector<std::string> command = {"sinew"};  ///< how the run was started, for its record
 
-  std::optional<Engine> engine = {};  ///< that makes the steps; none: this program
+  std::optional<Engine> engine = {};  ///< program that makes the steps; none: this one
 
   // What a caller may listen to; each may be empty.
   std::function<void(const RunProgress&)> progress = {};

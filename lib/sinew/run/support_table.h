@@ -19,7 +19,7 @@ namespace sinew {
 /// The machine at one moment.
 struct MachineMoment {
   double time;              ///< s
-  const Points& positions;  ///< by id, m
+  const Points& positions;  ///< index: particle id, m
   std::span<const ObstaclePose> supports;
   std::span<const Reaction> support_reactions, load_reactions;  ///< on the body
 };

@@ -8,7 +8,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t max_bytes = 800'000;  // of a page of 10 MB
+constexpr std::size_t max_bytes = 800'000;  // share of a page of 10 MB
 
 /// A coarser form of the obstacles where all frames of it would not fit; the same in all frames.
 ThinSurface thinned(const RunFiles& run, std::size_t frames) {
@@ -54,7 +54,7 @@ void add_forces(Playback& playback, const RunFiles& run,
 }  // namespace
 
 ShownForces::ShownForces(const RunFiles& run) : run_(&run) {
-  constexpr double longest = 0.2;  // of the body
+  constexpr double longest = 0.2;  // fraction of the body
   double hardest = 0;
   for (const PvdRow& row : run.support_rows)
     for (const Vec3& force :
@@ -104,7 +104,7 @@ std::vector<std::size_t> held_in_frames(const RunFiles& run) {
 }
 
 Box obstacle_space(const Box& body) {
-  constexpr double around = 0.15;  // of the diagonal: enough to recognize what a body touches
+  constexpr double around = 0.15;  // fraction of the diagonal: enough to recognize obstacles
   const Vec3 more = Vec3::Constant(around * body.diagonal().norm());
   return Box(body.min() - more, body.max() + more);
 }

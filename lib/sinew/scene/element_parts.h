@@ -46,7 +46,7 @@ class ElementParts {
   const Settings& settings_;
   const VolumeMesh& mesh_;
   std::vector<ElementFace> surface_;
-  double slack_ = 0;  ///< of places on the border of a region, m
+  double slack_ = 0;  ///< tolerance of places on the border of a region, m
 };
 
 }  // namespace sinew

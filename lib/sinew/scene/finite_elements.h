@@ -15,7 +15,7 @@
 namespace sinew {
 
 struct ElementOptions {
-  std::optional<double> size = {};  ///< of elements, m; by default 4 radii of the particles
+  std::optional<double> size = {};  ///< size of elements, m; by default 4 radii of the particles
   bool linear = false;              ///< equilibrium in the shape at rest
   int frequencies = 0;              ///< so many lowest modes as it is held, instead of equilibria
 };

@@ -44,7 +44,7 @@ std::vector<std::int32_t> written_particles(const OutputSettings& output, const 
   if (output.inside_every > 1)
     inside =
         deep_inside(near ? near->nearest : neighbors_within(rest, rest_neighbor_range(radius)));
-  int met = 0;  // of those inside
+  int met = 0;  // number of those inside
   for (std::size_t i = 0; i < rest.size(); ++i) {
     if (output.region && !region.contains(rest[i])) continue;
     if (!inside.empty() && inside[i] != 0 && met++ % output.inside_every != 0) continue;

@@ -20,7 +20,7 @@ namespace sinew {
 /// What fills a mesh that begins with a velocity.
 struct Thrown {
   Vec3 velocity, spin;                   ///< m/s, rad/s
-  std::vector<std::uint32_t> particles;  ///< by id, ascending
+  std::vector<std::uint32_t> particles;  ///< ids, ascending
 };
 
 std::vector<Thrown> thrown_parts(const Settings& settings, const Surface& surface,

@@ -55,7 +55,7 @@ std::vector<double> depths_at_rest(const Body& body, const NeighborLists& lists,
 /// Where two bones hold particles that touch at rest.
 struct Joint {
   Vec3 center = Vec3::Zero();
-  double radius = 0;  ///< of what folds with it, m
+  double radius = 0;  ///< radius of what folds with it, m
 };
 
 class Joints {

@@ -19,8 +19,8 @@ namespace sinew {
 /// Two bones whose flesh overlaps.
 struct Intrusion {
   std::array<int, 2> bones = {no_bone, no_bone};  ///< the lower one first
-  double depth = 0;                               ///< of the one's flesh in the other's, at most, m
-  double first = 0, deepest = 0;                  ///< moments of the first overlap and of that, s
+  double depth = 0;               ///< largest depth of one's flesh in the other's, m
+  double first = 0, deepest = 0;  ///< moments of the first overlap and of that, s
 };
 
 /// Depth in radii from which flesh passes through flesh where that is to be found.

@@ -25,9 +25,9 @@ void add_machine(const Settings& settings, const Body& body, const ParticleParts
 /// A part or a point of the body that is measured.
 struct Probe {
   std::string name;
-  std::vector<std::uint32_t> particles;  ///< by id
-  std::vector<double> weight;            ///< of each in its means; sums to 1
-  bool is_point = false;                 ///< that follows the particles
+  std::vector<std::uint32_t> particles;  ///< ids
+  std::vector<double> weight;            ///< weight of each in its means; sums to 1
+  bool is_point = false;                 ///< whether it follows the particles
 };
 
 /// Throws bad input as add_machine() does.

@@ -335,7 +335,7 @@ Simulation start(Prepared&& prepared, const RelaxationProgress& progress) {
 }
 
 std::vector<Intrusion> intrusions_of(const Prepared& prepared) {
-  constexpr double max_places = 5e7;  // of particles at moments, some seconds: of more, some frames
+  constexpr double max_places = 5e7;  // particles at moments, some seconds: else some frames
   const double places =
       static_cast<double>(prepared.body.rest.size()) * (prepared.frames.count + 1.0);
   const int every = 1 + static_cast<int>(places / max_places);

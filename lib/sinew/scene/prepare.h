@@ -43,7 +43,7 @@ Material material_of(const Settings& settings, const Particles& particles);
 /// What differs from particle to particle, as in Body.
 struct LocalMaterial {
   std::vector<double> volume_share = {}, stiffness = {};
-  std::vector<std::int32_t> component = {};  ///< of each particle; empty: not known
+  std::vector<std::int32_t> component = {};  ///< component of each particle; empty: not known
 };
 LocalMaterial local_material(const BodyFile& body);
 
@@ -68,9 +68,9 @@ struct Scene {
 
 /// A scene filled, bound and ready to be stepped.
 struct Prepared {
-  Settings settings;                      ///< of the scene, fitted to its rig as skeleton.fit asks
-  Surface surface;                        ///< of the body; empty: not read
-  SurfaceLook look;                       ///< of the surface, where it is exported
+  Settings settings;                      ///< settings, fitted to the rig as skeleton.fit asks
+  Surface surface;                        ///< surface of the body; empty: not read
+  SurfaceLook look;                       ///< look of the surface, where it is exported
   BodyFile filled;                        ///< the particles at rest, as body.vtu has them
   std::optional<FillReport> report = {};  ///< where the mesh was filled now
   Body body;                              ///< the particles on the bones, in their world
@@ -80,12 +80,12 @@ struct Prepared {
   StepChoice steps;
   std::vector<double> bone_speeds;  ///< before each frame, as bone_speeds() finds them, m/s
   StepPlan plan;
-  std::optional<LoadSteps> load_steps = {};  ///< of the static method
+  std::optional<LoadSteps> load_steps = {};  ///< load steps of the static method
   std::optional<DynamicOptions> dynamic_groups = {};
-  std::vector<Triangles> obstacles;  ///< of the world, as surfaces in coordinates of their shapes
+  std::vector<Triangles> obstacles;  ///< surfaces of obstacles, in their own coordinates
   std::vector<Probe> probes;
-  double joint_zone = 0;       ///< in square roots of the bones' cross-section
-  bool weights_given = false;  ///< by a file: they distribute rotations in their own manner
+  double joint_zone = 0;                        ///< in square roots of the bones' cross-section
+  bool weights_given = false;                   ///< whether a file gives them
   std::vector<std::string> file_warnings = {};  ///< what its files get wrong, with their places
   /// Flesh that passes through flesh: the pairs of body.pass_through, with what was found of them.
   std::vector<Intrusion> passing = {};

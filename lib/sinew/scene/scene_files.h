@@ -44,10 +44,10 @@ SkinnedRig read_rig(const std::filesystem::path& path, const MotionOptions& moti
 
 /// Empty where the scene names none.
 struct SceneFiles {
-  SkinnedRig skeleton;             ///< of skeleton.file
-  Rig motion;                      ///< of motion.file
-  std::vector<Surface> obstacles;  ///< of world.obstacles, one each; empty for other shapes
-  Triangles surface;               ///< of the body, for supports and loads; read_files() has none
+  SkinnedRig skeleton;             ///< rig of skeleton.file
+  Rig motion;                      ///< rig of motion.file
+  std::vector<Surface> obstacles;  ///< meshes of world.obstacles; empty for other shapes
+  Triangles surface;               ///< surface of the body; read_files() has none
 };
 
 /// Throws bad input, with the scene's line, for files that cannot be read.

@@ -167,7 +167,7 @@ class Speedometer {
   std::vector<double> reach_of_supports_;  ///< m
   std::vector<BoneEnds> last_;
   std::vector<ObstaclePose> last_supports_;
-  double time_;  ///< of the last, s
+  double time_;  ///< time of the last, s
 };
 
 }  // namespace
@@ -217,7 +217,7 @@ namespace {
 /// Into how many parts the steps before each frame are divided.
 std::vector<int> parts_of_steps(const Prepared& prepared) {
   const double kept =
-      std::exp(-prepared.frames.interval / crossing_time(prepared.body));  // of a speed
+      std::exp(-prepared.frames.interval / crossing_time(prepared.body));  // decay of a speed
   std::vector<int> parts;
   double speed = 0;
   for (const double of_bones : prepared.bone_speeds) {

@@ -33,7 +33,7 @@ struct FrameTimes {
     return frame == count && frame * interval - end > negligible * interval;
   }
 
-  static constexpr double negligible = 1e-6;  ///< of an interval
+  static constexpr double negligible = 1e-6;  ///< fraction of an interval
 };
 /// Throws bad input, with the scene's line, for over a million.
 FrameTimes frame_times(const Settings& settings);

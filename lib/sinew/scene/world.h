@@ -23,7 +23,7 @@ namespace sinew {
 struct SceneWorld {
   std::shared_ptr<const World> world;  ///< none where nothing surrounds the body
   std::vector<Triangles> obstacles;    ///< each as a surface, in coordinates of its shape
-  std::vector<Probe> probes;           ///< of the body in it
+  std::vector<Probe> probes;           ///< probes of the body in it
 };
 
 /// `body` is complete except for its world; `component`: of each particle. Throws bad input, with

@@ -20,7 +20,7 @@ namespace sinew {
 struct Override {
   std::string path;   ///< section.key
   std::string value;  ///< YAML: a word, a number, [x, y, z]
-  std::string given;  ///< as on the command line: errors quote it
+  std::string given;  ///< text on the command line: errors quote it
 };
 
 /// Splits "section.key=value". Throws bad input for another form.

@@ -45,7 +45,7 @@ enum class ObstacleShape { plane, sphere, capsule, box, mesh };
 struct ObstacleSettings {
   std::string name;
   ObstacleShape shape = ObstacleShape::plane;
-  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  ///< of a plane
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  ///< plane
   std::optional<Vec3> center = {};
   std::optional<double> radius = {};
   std::optional<Vec3> from = {}, to = {};
@@ -71,13 +71,13 @@ struct FieldSettings {
   std::string name;
   FieldShape shape = FieldShape::uniform;
   std::optional<Vec3> acceleration = {};  ///< uniform
-  std::optional<Vec3> density = {};       ///< of force
-  std::optional<Vec3> point = {};         ///< of attraction, or on the axis of a swirl
-  Vec3 axis = Vec3::UnitZ();              ///< of a swirl
+  std::optional<Vec3> density = {};       ///< density of force
+  std::optional<Vec3> point = {};         ///< point of attraction, or on the axis of a swirl
+  Vec3 axis = Vec3::UnitZ();              ///< axis of a swirl
   std::optional<double> strength = {};    ///< acceleration of attraction and swirl
-  std::optional<double> core = {};        ///< of attraction and swirl
+  std::optional<double> core = {};        ///< core of attraction and swirl
   RegionSettings region = {};
-  std::vector<ValueKeySettings> keys = {};  ///< of strength
+  std::vector<ValueKeySettings> keys = {};  ///< keys of strength
 };
 
 struct MuscleSettings {
@@ -86,7 +86,7 @@ struct MuscleSettings {
   std::optional<Vec3> direction = {};
   double strength = 0;
   RegionSettings region = {};
-  std::vector<ValueKeySettings> keys = {};  ///< of activation
+  std::vector<ValueKeySettings> keys = {};  ///< keys of activation
 };
 
 struct WorldSettings {
@@ -108,7 +108,7 @@ enum class AxisSide { none, inward, outward };
 /// A part of the body at rest: what is in all of the regions that are given. None: all of it.
 struct PartSettings {
   RegionSettings region = {};                      ///< a box or a ball
-  std::optional<Vec3> point = {}, normal = {};     ///< of a plane: what is in front of it
+  std::optional<Vec3> point = {}, normal = {};     ///< plane: what is in front of it
   std::optional<Vec3> axis = {}, axis_point = {};  ///< direction and place of an axis
   std::optional<double> axis_radius = {};          ///< largest distance from it
   std::optional<int> component = {};
@@ -170,8 +170,8 @@ struct BoundSettings {
   std::string bone;  ///< "": to none
   std::optional<std::vector<double>> ids = {};
   std::optional<Vec3> low = {}, high = {};  ///< corners of the box
-  std::optional<Vec3> center = {};          ///< of the ball
-  std::optional<double> radius = {};        ///< of the ball
+  std::optional<Vec3> center = {};          ///< center of the ball
+  std::optional<double> radius = {};        ///< radius of the ball
 };
 
 struct SolverSettings {
@@ -184,8 +184,8 @@ struct SolverSettings {
   Precision precision = Precision::binary64;
   NeighborSearch neighbor_search = NeighborSearch::lists;
   std::optional<double> wall_time;
-  std::optional<double> residual;  ///< of the static method
-  int iterations = 200'000;        ///< of the static method, for each frame
+  std::optional<double> residual;  ///< residual of the static method
+  int iterations = 200'000;        ///< iterations of the static method, for each frame
   StaticSolver static_solver = StaticSolver::automatic;
 };
 
@@ -255,7 +255,7 @@ struct Settings {
 
   /// Where each value was read, by its path: "body.mesh", "skeleton.bones[1].parent".
   std::map<std::string, Place, std::less<>> places;
-  std::vector<std::string> warnings;  ///< of words that have changed, with their places
+  std::vector<std::string> warnings;  ///< warnings of words that have changed, with their places
 
   /// Whether any of its meshes begins with a velocity.
   bool moves_initially() const;

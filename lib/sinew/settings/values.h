@@ -24,7 +24,7 @@ struct Rules {
   Range range;
   std::span<const std::string_view> choices;
   std::string_view absent;
-  std::size_t count = 0;  ///< of a list of numbers
+  std::size_t count = 0;  ///< count of a list of numbers
 };
 
 template <class Owner>

@@ -33,7 +33,7 @@ class Builder : public YAML::EventHandler {
         max_nodes_(max_nodes(text.size())) {}
 
   YamlNode root;
-  Place last_quote;  ///< of the last scalar that was not a plain word
+  Place last_quote;  ///< place of the last scalar that was not a plain word
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (std::exchange(begun_, true))
@@ -84,7 +84,7 @@ class Builder : public YAML::EventHandler {
   struct Open {
     YamlNode node;
     YAML::anchor_t anchor;
-    std::unordered_map<std::string, int> lines;  ///< of the keys so far
+    std::unordered_map<std::string, int> lines;  ///< lines of the keys so far
   };
 
   YamlPlace at(const YAML::Mark& mark) { return {file_, mark.line + 1, column_of(mark)}; }

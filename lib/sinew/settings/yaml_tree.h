@@ -47,9 +47,9 @@ struct YamlNode {
   Kind kind = Kind::empty;
   bool quoted = false;          ///< the scalar is quoted, or is a block of text
   YamlPlace place;              ///< beginning of the value; for an empty one its key
-  std::string text;             ///< of a scalar
-  std::vector<YamlNode> items;  ///< of a list, or the values of a map
-  std::vector<YamlKey> keys;    ///< of a map, one per item
+  std::string text;             ///< text of a scalar
+  std::vector<YamlNode> items;  ///< items of a list, or the values of a map
+  std::vector<YamlKey> keys;    ///< keys of a map, one per item
 
   /// The value of a key, or nullptr.
   const YamlNode* find(std::string_view key) const;

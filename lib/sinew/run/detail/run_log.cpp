@@ -37,7 +37,7 @@ Json arrays_with_units() {
     arrays[std::string(array.series)][std::string(array.name)] = {
         {"on", place_text(array.place)}, {"unit", array.unit}, {"meaning", array.help}};
   const Json of_particles = arrays["particles"];
-  for (const auto& [name, row] : of_particles.items())  // by output.skin
+  for (const auto& [name, row] : of_particles.items())  // arrays that output.skin asks for
     if (row["on"] == "point" && !arrays["surface"].contains(name)) arrays["surface"][name] = row;
   return arrays;
 }
@@ -218,7 +218,7 @@ void RunLog::describe(const RunIdentity& run) {
 void RunLog::describe(const Engine& engine) {
   record_["stepper"] = engine.name;
   record_["ranks"] = engine.ranks;
-  record_.erase("instruction_set");  // of the built-in kernels
+  record_.erase("instruction_set");  // name of a built-in kernel
   write_record(folder_, record_);
   log("steps by " + engine.name + " on " + std::to_string(engine.ranks) + " ranks");
 }

@@ -66,7 +66,7 @@ double grip_factor(const Body& body) {
 double bulk_compression_factor(double layers, double poisson_ratio) {
   constexpr double slope = 2.8, saturation = 0.123;
   const double bonds_alone = 1 / (1 - 2 * isotropic_poisson);
-  const double beyond = 1 / (1 - 2 * poisson_ratio) / bonds_alone - 1;  // of the bulk modulus
+  const double beyond = 1 / (1 - 2 * poisson_ratio) / bonds_alone - 1;  // share of the bulk modulus
   return 1 + std::max(0.0, slope * beyond / (1 + saturation * beyond)) / layers;
 }
 

@@ -23,7 +23,7 @@ struct RestTrial {
   RestState state = RestState::stable;
   double shift = 0;           ///< root mean square, at `time`, radii
   double time = 0;            ///< s: the end, or the moment of collapse
-  std::size_t particles = 0;  ///< that were tried; 0: none, as nothing could let them go
+  std::size_t particles = 0;  ///< number tried; 0: none, as nothing could let them go
 };
 
 /// Steps the body where second neighbors are within the reach of an attraction: bonds, and shorter

@@ -13,7 +13,7 @@
 namespace sinew {
 namespace {
 
-constexpr double largest_miss = 0.1;   // of a modulus
+constexpr double largest_miss = 0.1;   // fraction of a modulus
 constexpr std::size_t max_spans = 24;  // between grips: more say nothing more
 constexpr double directed = 0.1;       // resultant of a load, over the sum of its forces' lengths
 constexpr double smallest_motion = 1e-9;  // m, of a support against another
@@ -31,10 +31,10 @@ StiffnessAlong stiffness_along(const Body& body, const Vec3& direction, double s
 struct Grip {
   std::string name;
   Vec3 center;
-  Vec3 force = Vec3::Zero();         ///< of a load, N
+  Vec3 force = Vec3::Zero();         ///< force of a load, N
   const Support* support = nullptr;  ///< none: a load
-  std::size_t number = 0;            ///< of the support
-  std::int32_t component = 0;        ///< of the body
+  std::size_t number = 0;            ///< number of the support
+  std::int32_t component = 0;        ///< component of the body
 };
 
 Vec3 resultant(const Load& load, const Points& rest) {

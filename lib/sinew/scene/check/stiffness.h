@@ -15,7 +15,7 @@ namespace sinew {
 
 /// Stiffness of a part of the body along a direction.
 struct StiffnessAlong {
-  double young_modulus;  ///< of the material along it, Pa
+  double young_modulus;  ///< modulus of the material along it, Pa
   double planes;         ///< half-planes of particles across the body there
   double lack;           ///< fraction of the bending stiffness that so few of them lack, at most
   double pulled_lack;    ///< the same of the stiffness against a pull
@@ -39,7 +39,7 @@ double lack_of_pulled_stiffness(double planes, bool isotropic);
 /// Stiffness from one support to another, or to a load.
 struct SpanStiffness : StiffnessAlong {
   std::string from, to;
-  bool bends;  ///< by a motion or a force across; else it is pulled or pressed
+  bool bends;  ///< whether a motion or a force across bends it; else it is pulled
 
   double lack_shown() const { return bends ? lack : pulled_lack; }
   /// Returns the modulus that the body shows as it is strained, Pa.

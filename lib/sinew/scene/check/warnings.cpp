@@ -27,7 +27,7 @@ using Warnings = std::vector<std::string>;
 constexpr double largest_fall = 0.9e-3, smallest_barrier = 0.055;
 constexpr double fastest_bone =
     0.5;  // radii per step: faster bones pass neighbors instead of pushing them
-constexpr double largest_overstress = 0.1;  // of the yield stress
+constexpr double largest_overstress = 0.1;  // fraction of the yield stress
 constexpr double deepest_start = 0.1;       // radii inside an obstacle: more is visible as a kick
 constexpr double largest_face = 4;          // particles along a side
 constexpr double min_shift = 0.1;           // radii: a smaller jump of a bone is invisible
@@ -139,7 +139,7 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
 
 /// Angles of 1.57 and the like, all of them small.
 void warn_of_radians(const Prepared& prepared, Warnings& warnings) {
-  constexpr double twelfth = pi / 12, rounding = 0.005;  // of numbers with two decimals
+  constexpr double twelfth = pi / 12, rounding = 0.005;  // rounding of numbers with two decimals
   double largest = 0;
   for (const Track& track : prepared.motion.tracks)
     for (const Quat& rotation : track.rotation.values)

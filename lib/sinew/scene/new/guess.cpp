@@ -13,8 +13,8 @@ namespace {
 // in m or cm; few bodies that bend are longer than a whale.
 constexpr double longest_in_m = 20, longest_stl_in_m = 2, shortest_figure_in_cm = 50,
                  longest_figure_in_cm = 300;
-constexpr double on_ground = 0.02;  // of the height
-constexpr double clearly = 2;       // as large as another footprint
+constexpr double on_ground = 0.02;  // fraction of the height
+constexpr double clearly = 2;       // times the size of another footprint
 
 std::string format_of(const std::filesystem::path& mesh) {
   return lower(mesh.extension().string());

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t max_joints = 12;
 constexpr std::size_t few_particles = 10;          // particles that do not show a bend
-constexpr double fewest_shown = 0.002;             // of the particles
+constexpr double fewest_shown = 0.002;             // fraction of the particles
 constexpr double bend_angle = 30;                  // degrees
 constexpr double joint_every = 0.35, lasts = 0.7;  // s from one joint to the next, and of one
 constexpr double already_bent = 0.1;               // sine of the angle at which a joint rests

@@ -24,15 +24,15 @@
 namespace sinew {
 namespace {
 
-constexpr double min_inside = 0.5;  // of the limbs' length, in the body
+constexpr double min_inside = 0.5;  // fraction of the limbs' length, in the body
 constexpr double pictures = 24;     // per second
 // A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
 // of waves, and with them steps per second, go with the size.
 constexpr double usual_size = 0.5, usual_modulus = 10e3;
 constexpr double layer_fraction = 1.0 / 40;  // thickness of a layer along a mesh without inside
-constexpr double open_fraction = 0.12;   // of a component's area, its holes: it encloses nothing
-constexpr double smallest_shell = 0.05;  // of the area of the mesh
-constexpr double max_added = 0.2;        // of the skin, by closing holes
+constexpr double open_fraction = 0.12;       // share of holes in an area that encloses nothing
+constexpr double smallest_shell = 0.05;      // fraction of the area of the mesh
+constexpr double max_added = 0.2;            // fraction of the skin, by closing holes
 
 double extent(const Surface& surface) {
   return bounds(surface.triangles.points).sizes().maxCoeff();

@@ -36,16 +36,16 @@ struct NewSceneFiles {
   std::string rig;                  ///< a path; "": the mesh's own, if it has one
   std::string scene;                ///< where it will be; paths in it are relative to its folder
   const RigBody* figure = nullptr;  ///< the mesh is its skin
-  std::optional<Axis> up = {};      ///< of the mesh; none: guessed
+  std::optional<Axis> up = {};      ///< up of the mesh; none: guessed
 };
 
 struct NewScene {
-  std::string text;                     ///< of the file, with comments
+  std::string text;                     ///< text of the file, with comments
   std::string mesh, mesh_text;          ///< a file that it needs, beside it; "": none
   std::string unit, axes, bones, size;  ///< one line each: what was chosen, and why
   std::string pose;                     ///< why the rest pose is one of the clip; "": it is not
-  std::string holes;                    ///< that are closed; "": none
-  std::string warning;                  ///< of the mesh's reader; "": none
+  std::string holes;                    ///< holes that are closed; "": none
+  std::string warning;                  ///< warning of the mesh's reader; "": none
 };
 
 /// A mesh whose triangles are too large to bend with the body is replaced by the same one in
@@ -63,7 +63,7 @@ struct NewSceneWish {
   std::optional<Triangles> body = {};  ///< in place of a mesh: a shape, called `mesh`
   bool force = false;                  ///< replace older files
   std::optional<PolygonSoup> polygons = {};
-  std::optional<Axis> up = {};  ///< of the mesh; none: guessed
+  std::optional<Axis> up = {};  ///< up of the mesh; none: guessed
 };
 
 struct WrittenScene {
@@ -104,13 +104,13 @@ struct NewChoices {
   std::string unit, axes, bones, size;  ///< why; see NewScene
   std::string pose = {};                ///< why the rest pose is not the rig's own; "": it is
   std::size_t particles = 0;
-  Box box;                              ///< of the body, m
-  double thickness = 0;                 ///< of its limbs, m
+  Box box;                              ///< box of the body, m
+  double thickness = 0;                 ///< thickness of its limbs, m
   std::vector<std::string> clips = {};  ///< others than the one that plays
   std::string clip_note = {};           ///< about that one
   bool begins_posed = false;            ///< it begins far from rest
   bool hollow = false;                  ///< a shell, whose bones lie outside of it
-  std::string holes = {};               ///< that are closed; "": none
+  std::string holes = {};               ///< holes that are closed; "": none
   std::string changed = {};             ///< what the written mesh is; "": the given one
 };
 

@@ -16,11 +16,11 @@
 namespace sinew {
 namespace {
 
-constexpr double longest_rig_in_m = 20;                      // of a rig that is no figure
+constexpr double longest_rig_in_m = 20;                      // length of a rig that is no figure
 constexpr double shortest_human = 1.5, tallest_human = 1.9;  // m
 constexpr double clearly_up = 1.3;        // times as far along one axis as along y
-constexpr double side = 0.014;            // of the skin's faces, of the height
-constexpr double min_bones_inside = 0.9;  // of the bones, in the skin of a figure
+constexpr double side = 0.014;            // side of the skin's faces, over the height
+constexpr double min_bones_inside = 0.9;  // fraction of the bones, in the skin of a figure
 constexpr int poses_for_up = 60;
 
 struct CaptureUnit {

@@ -21,11 +21,11 @@
 namespace sinew {
 namespace {
 
-constexpr double min_fraction = 0.5;   // of the bones inside the mesh, for them to belong together
+constexpr double min_fraction = 0.5;   // fraction of the bones in a mesh that is theirs
 constexpr double longest_clip = 3;     // s of the scene, for a first picture
 constexpr double min_wait = 0.1;       // s of a clip before its first key, to be left out
 constexpr double min_turn = pi / 180;  // rad, of a bone that a clip turns
-constexpr double min_travel = 1e-3;    // of the skeleton's size, of a bone that a clip moves
+constexpr double min_travel = 1e-3;    // fraction of the skeleton's size, if a clip moves it
 constexpr double well_inside = 0.8;    // a fraction that no fit improves
 constexpr int places_per_bone = 5;
 

@@ -23,16 +23,16 @@ namespace {
 
 // At first: seconds of filling, and at least as fine as looks like a body.
 constexpr double fewest = 3000, max_at_first = 10000, max_if_split = 60000;
-constexpr double max_overlap = 0.8;     // of the volume by the faces lies there once
+constexpr double max_overlap = 0.8;     // fraction of the volume by the faces that lies there once
 constexpr double usually_across = 4.5;  // particles across a limb
-constexpr double thin_fraction = 0.1;   // of the limbs' length is thinner than what counts as thin
-constexpr double max_loose = 0.01;      // of the particles, such as single ones at a tip
-constexpr double min_within = 0.1;      // of the particles, with neighbors on all sides
+constexpr double thin_fraction = 0.1;   // fraction of the limbs' length below what is thin
+constexpr double max_loose = 0.01;      // fraction of the particles, such as single ones at a tip
+constexpr double min_within = 0.1;      // fraction of the particles, with neighbors on all sides
 // What a run may take: particles times steps, and particles. About as long as drawing it; and more
 // where limbs are thin, but for those that hold a twentieth of the body.
 constexpr double usual_work = 5e8, usual_particles = 1e5, largest_work = 2e9, max_particles = 3e5;
 constexpr double min_across = 4, thin_volume = 0.05;
-constexpr double foreseen = 0.95;  // of the work, which a trial with another radius tells nearly
+constexpr double foreseen = 0.95;  // fraction of the work: a trial tells it nearly
 
 /// Distance from the surface along the limbs: a tenth of their length is thinner.
 double thin_inner(const std::vector<Limb>& limbs) {
@@ -102,7 +102,7 @@ void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewCh
   BodyOptions& body = choices.settings.body;
   const double area_of = area(surface.triangles);
   const double volume = volume_inside(surface).volume;
-  const double mean = 2 * volume / area_of;  // of a rod its radius, of a sheet its thickness
+  const double mean = 2 * volume / area_of;  // radius of a rod, thickness of a sheet
   const double inner = choices.hollow ? mean / 2 : std::min(thin_inner(limbs), mean);
   const std::size_t parts =
       static_cast<std::size_t>(std::max(limbs.back().body + 1, surface.components));
