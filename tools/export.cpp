@@ -63,8 +63,8 @@ void declare(OptionList& list, Options& options) {
            "after the run")
       .type_name("FILE|DIR");
   list.add("--series", options.series,
-           "obj, ply, stl: surface, skin_lbs or skin_dqs (which output.skin_lbs and .skin_dqs "
-           "write)")
+           "obj, ply, stl: a series of triangles that the run has: surface, obstacles, skin_lbs, "
+           "...")
       .type_name("NAME");
   list.add("--size", options.elements.size,
            "calculix: side of the elements, m; by default 4 radii of the particles")

@@ -366,7 +366,7 @@ class Exported(SmallRun):
                 self.assertEqual(sinew("info", self.folder / name, "--json", check=0).stdout.count('"closed": true'), 1)
         self.export("--to", "stl")
         self.assertEqual(sorted(path.name for path in (self.folder / "run_stl").iterdir()), [f"surface_{k:06}.stl" for k in range(5)])
-        for words in (["--series", "skin_dqs"], ["--series", "bones"]):
+        for words in (["--series", "skin_dqs"], ["--series", "bones"], ["--series", "obstacles"]):
             self.assert_one_line(self.export("--to", "obj", *words, check=2), 2, words[1])
         self.assert_one_line(self.export("--to", "csv", "--series", "skin_lbs", check=2), 2, "obj, ply or stl")
 

@@ -10,6 +10,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/local_origin.h>
 #include <sinew/core/text.h>
+#include <sinew/io/series_table.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/mesh_formats.h>
 #include <sinew/mesh/refine.h>
@@ -49,15 +50,30 @@ std::string text_of(const Triangles& surface, std::string_view extension, const 
   return extension == ".obj" ? obj_text(surface) : ply_text(soup_of(surface));
 }
 
-const std::vector<PvdRow>& rows_of(const RunFiles& run, const std::string& series) {
-  if (series == "surface") return run.surface_rows;
-  const bool linear = series == "skin_lbs";
-  if (!linear && series != "skin_dqs")
-    throw bad_input("there is no surface " + shown(series), "give surface, skin_lbs or skin_dqs");
-  const std::vector<PvdRow>& rows = linear ? run.lbs_rows : run.dqs_rows;
-  if (rows.empty())
+/// Names of the series of triangles.
+std::vector<std::string_view> series_of_surfaces() {
+  std::vector<std::string_view> names;
+  for (const SeriesRow& row : series_table())
+    if (row.cells == CellKind::triangle) names.push_back(row.name);
+  return names;
+}
+
+/// The rows of a series at the times of the run's frames.
+std::vector<PvdRow> rows_of(const RunFiles& run, const std::string& series) {
+  const auto names = series_of_surfaces();
+  if (std::find(names.begin(), names.end(), series) == names.end())
+    throw bad_input("there is no surface " + shown(series), suggestion(series, names));
+  const auto there = series_in(run.folder.path);
+  if (std::find(there.begin(), there.end(), series) == there.end()) {
+    const std::string asked_by(find_series(series)->asked_by);
     throw bad_input(Place{run.folder.path.string()}, "has not written " + series,
-                    "run the scene with output." + series);
+                    asked_by.empty() ? "give another series" : "run the scene with " + asked_by);
+  }
+  std::vector<PvdRow> rows = read_pvd(run.folder.path / (series + ".pvd"));
+  std::erase_if(rows, [&](const PvdRow& row) {
+    return std::none_of(run.particle_rows.begin(), run.particle_rows.end(),
+                        [&](const PvdRow& frame) { return frame.time == row.time; });
+  });
   return rows;
 }
 
@@ -70,7 +86,7 @@ bool is_surface_file(std::string_view extension) {
 ExportedSurfaces export_surfaces(const RunFiles& run, const SurfaceExport& as,
                                  const std::vector<std::size_t>& frames,
                                  const std::filesystem::path& target) {
-  const std::vector<PvdRow>& rows = rows_of(run, as.series);
+  const std::vector<PvdRow> rows = rows_of(run, as.series);
   if (frames.size() > 1) create_folder(target);
   ExportedSurfaces done;
   if (as.extension == ".stl" && !rows.empty())

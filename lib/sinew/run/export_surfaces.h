@@ -19,7 +19,7 @@ namespace sinew {
 bool is_surface_file(std::string_view extension);
 
 struct SurfaceExport {
-  std::string series = "surface";  ///< or skin_lbs, skin_dqs
+  std::string series = "surface";  ///< or another one of triangles
   std::string extension;           ///< one of is_surface_file()
 };
 
