@@ -88,7 +88,12 @@ const std::map<Feature, Choose>& choices() {
        [](Settings& s) {
          add_bones(s);
          s.motion.begin = Begin::pose;
-         s.tracks = {{.bone = "upper", .keys = {{.time = 0, .axis = Vec3(0, 1, 0), .angle = 1}}}};
+         TrackDefinition& track = s.tracks.emplace_back();
+         track.bone = "upper";
+         KeyDefinition& key = track.keys.emplace_back();
+         key.time = 0;
+         key.axis = Vec3::UnitY();
+         key.angle = 1;
        }},
       {bodies,
        [](Settings& s) {

@@ -340,7 +340,7 @@ probes:
                 ("loads:\n  - {name: a, pressure: 1, low: [1, 1, 1], high: [2, 2, 2]}\n",
                  "no face of the surface is in the part of"),
                 ("supports: [{name: s}]\nmaterials:\n  - {name: a, low: [0, 0, 0], high: [1, 1, 1]}\n", "material 'a' has nothing of its own; give"),
-                ("supports: [{name: s}]\nmaterials:\n  - {name: a, poisson_ratio: 0.3}\n", "ratio of bonds alone is 1/4"),
+                ("supports: [{name: s}]\nmaterials:\n  - {name: a, poisson_ratio: 0.3}\n", "bonds alone is 1/4; leave poisson_ratio out"),
                 ("supports: [{name: s}]\nmaterials:\n  - {name: a, density: 5, mesh: none.obj}\n", "none.obj"),
                 ("supports: [{name: s}]\nmaterials:\n  - {name: a, density: -5}\n", "density is '-5', out of range; give"),
                 ("supports: [{name: s}]\nmaterials:\n  - {name: a, density: 5, low: [5, 5, 5], high: [6, 6, 6]}\n",

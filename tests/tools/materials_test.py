@@ -208,7 +208,7 @@ output: {{interval: 1}}
         path.write_text(BAR.format(source=SOURCE,
                                    materials="materials: [{name: bone, young_modulus: 4e5}]"))
         refused = sinew("check", path, "--set", "material.model=paper", check=2)
-        self.assertIn("only isotropic bonded parts of a body differ", refused.stderr)
+        self.assertIn("parts of other stiffness and bonds of nearest neighbors alone", refused.stderr)
         path.write_text(BAR.format(source=SOURCE, materials="materials: [{name: none, "
                                    "young_modulus: 4e5, center: [9, 9, 9], radius: 1}]"))
         self.assertIn("no particle", sinew("check", path, check=2).stderr)
