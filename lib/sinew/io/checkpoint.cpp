@@ -125,7 +125,7 @@ struct Head {
 };
 
 /// Bytes of the head of a file by that program.
-std::string bytes_of(const Head& head) {
+std::string head_bytes(const Head& head) {
   std::string bytes(magic);
   const auto add = [&](const auto& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -222,10 +222,10 @@ void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
   std::uint64_t size = 0;
   ArchiveWriter([&](const void*, std::size_t count) { size += count; })(checkpoint);
   Head head{.program = checkpoint.run.program};
-  head.length = bytes_of(head).size() + size + tail_size;
+  head.length = head_bytes(head).size() + size + tail_size;
   NewFile file(path);
   HashedFile out(file);
-  const std::string begin = bytes_of(head);
+  const std::string begin = head_bytes(head);
   out.put(begin.data(), begin.size());
   ArchiveWriter([&](const void* bytes, std::size_t count) { out.put(bytes, count); })(checkpoint);
   const std::uint64_t hash = out.hash();

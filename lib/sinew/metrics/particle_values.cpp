@@ -273,7 +273,7 @@ std::vector<Column> deformation_arrays(const RestShape& rest, const Points& now)
           of_fit(
               "J", +[](const Mat3& F) { return Values<1>{F.determinant()}; }),
           of_fit("strain", green_lagrange),
-          of_fit("stretch", stretches),
+          of_fit("stretch", principal_stretches),
           of_fit(
               "strain_eq",
               +[](const Mat3& F) {
