@@ -46,6 +46,10 @@ class Commands(SmallRun):
             self.assertGreater((self.out / name).stat().st_size, 0, name)
         for name in SERIES:
             self.assertEqual(len(list((self.out / name).glob("*.vtu"))), 13, name)
+        record = self.record()
+        self.assertEqual(record["schema_version"], 1)
+        self.assertEqual(list(record["series"])[:4], SERIES)
+        self.assertEqual(record["series"]["skin_lbs"]["asked_by"], "output.skin_lbs")
         rows = list(csv.DictReader((self.out / "metrics.csv").open()))
         self.assertEqual(len(rows), 13)
         self.assertEqual(list(rows[0])[0], "time")
