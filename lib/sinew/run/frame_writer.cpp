@@ -36,6 +36,18 @@ std::vector<double> each(std::size_t nth, std::span<const double> times) {
   return some;
 }
 
+/// Creates the folder as well.
+std::deque<Series> begun_series(const std::filesystem::path& folder, const OutputSettings& output,
+                                const std::vector<std::string_view>& names, double radius,
+                                std::span<const double> kept) {
+  const auto every = static_cast<std::size_t>(output.every);
+  std::deque<Series> series;
+  for (const std::string_view name : names)
+    series.emplace_back(folder, format_of(output, name, radius),
+                        each(is_thinned(name) ? every : 1, kept));
+  return series;
+}
+
 /// Forces of the bones on the body.
 std::vector<BoneRow> rows_of(const std::vector<Reaction>& reactions) {
   std::vector<BoneRow> rows;
@@ -54,13 +66,10 @@ FrameWriter::FrameWriter(const std::filesystem::path& folder, const OutputSettin
       data_(output, body, scene, strain),
       every_(static_cast<std::size_t>(output.every)),
       taken_(kept.size()),
+      series_(begun_series(folder, output, data_.series(), body.material.pair.r, kept)),
       bone_table_(folder / "bones.csv", body.skeleton.size(), kept.size()),
       faces_(scene.surface.faces),
       written_(static_cast<int>(kept.size())) {
-  for (const std::string_view name : data_.series())
-    series_.emplace_back(
-        folder, format_of(output, name, body.material.pair.r),
-        is_thinned(name) ? each(every_, kept) : std::vector(kept.begin(), kept.end()));
   if (find("supports") != nullptr)
     support_table_.emplace(folder / "supports.csv", *body.world, kept.size());
   if (!scene.probes.empty()) probe_table_.emplace(folder / "probes.csv", scene.probes, kept.size());
