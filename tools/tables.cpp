@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sinew-tables NAME: prints a table of the README files as Markdown. For developers; not installed.
+#include <algorithm>
 #include <string>
 
 #include <sinew/core/arrays.h>
@@ -63,6 +64,12 @@ std::string sections_markdown() {
   return text;
 }
 
+/// A feature with what it is part of: Newton's method finds equilibria.
+Features implied_by(Feature feature) {
+  if (feature == Feature::newton) return {feature, Feature::equilibria};
+  return {feature};
+}
+
 /// Rows are features, columns who steps or meshes a scene; "no" where the two exclude each other.
 std::string capabilities_markdown() {
   using enum Feature;
@@ -80,8 +87,12 @@ std::string capabilities_markdown() {
     for (const std::string_view key : row.keys)
       keys += (keys.empty() ? "`" : ", `") + std::string(key) + '`';
     for (const Feature column : columns) {
-      const bool excluded =
-          conflict_with(column, {row.feature}) || conflict_with(row.feature, {column});
+      const Features with_column = implied_by(column), with_row = implied_by(row.feature);
+      const auto excludes = [](const Features& those, const Features& others) {
+        return std::any_of(those.begin(), those.end(),
+                           [&](Feature one) { return conflict_with(one, others).has_value(); });
+      };
+      const bool excluded = excludes(with_column, with_row) || excludes(with_row, with_column);
       cells_of_row += excluded ? " no |" : row.feature == column ? " |" : " yes |";
     }
     if (cells_of_row.find("no") != std::string::npos)
