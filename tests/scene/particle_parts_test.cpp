@@ -111,7 +111,7 @@ TEST(ParticleParts, AroundAnAxisAreBoresAndShaftsWithoutTheirRims) {
     part.facing_axis = AxisSide::outward;
     EXPECT_NEAR(area(parts.faces(part, "")), b * sides, 1e-12);
     part.axis_radius = (a + b) / 2;
-    test::expect_error([&] { parts.faces(part, "loads[0]"); }, {"no face", "loads[0]"});
+    test::expect_bad_input([&] { parts.faces(part, "loads[0]"); }, {"no face", "loads[0]"});
     part.facing_axis = AxisSide::none;
     for (const std::uint32_t i : parts.particles(part, ""))
       EXPECT_LE(std::hypot(rest[i].x() - move.x(), rest[i].y() - move.y()), *part.axis_radius);
