@@ -81,7 +81,8 @@ TEST(OwnStepper, IsDrivenSavedAndRestored) {
   EXPECT_NEAR(fallen(), 10 * 1e-6 * 150 * 151 / 2, 1e-12);
   EXPECT_EQ(simulation.steps(), 150);
   test::expect_bad_input([&] { simulation.relax({}); }, {"equilibria exclude each other"});
-  test::expect_bad_input([&] { simulation.enable_dynamic_groups({}); }, {"groups of particles exclude each other"});
+  test::expect_bad_input([&] { simulation.enable_dynamic_groups({}); },
+                         {"groups of particles exclude each other"});
 }
 
 Settings bending(MaterialModel model = MaterialModel::bonded) {
