@@ -163,22 +163,60 @@ def hash_of(content):
     return value
 
 
-def sections_of(whole):
-    """Name, size of an element, bytes."""
-    at, sections = 24, []
-    while at < len(whole) - 8:
-        name, size, count = struct.unpack_from("<8sQQ", whole, at)
-        sections.append((name.rstrip(b"\0").decode(), size, whole[at + 24:at + 24 + size * count]))
-        at += 24 + size * count
-    return sections
+class Fields:
+    """The values of a checkpoint, in order: name, size of an element (0: one value, without a count), bytes."""
+
+    def __init__(self, whole):
+        self._text, self._at, self.all = whole, 24 + 24, []
+        self.all.append(("program", 1, self._take(struct.unpack_from("<Q", whole, 24 + 16)[0])))
+        for name in ("scene", "body", "motion", "count", "timestep", "number"):
+            self._one(name, 8)
+        self._state()
+        if self._one("begun", 1) != b"\0":
+            self._state()
+        assert self._at == len(whole) - 8, (self._at, len(whole))
+
+    def _take(self, count):
+        self._at += count
+        return self._text[self._at - count:self._at]
+
+    def _one(self, name, size):
+        self.all.append((name, 0, self._take(size)))
+        return self.all[-1][2]
+
+    def _count(self, name):
+        return struct.unpack("<Q", self._one(name, 8))[0]
+
+    def _list(self, name, size):
+        values = self._take(size * struct.unpack("<Q", self._take(8))[0])
+        self.all.append((name, size, values))
+        return values
+
+    def _state(self):
+        self._one("steps", 8), self._one("kicked", 1), self._one("units", 8 * (1 + 9 + 1))
+        self._list("order", 4)
+        of_place, of_velocity = ((8, 8), (4, 4))[self._one("precision", 1)[0]]
+        for name, size in ("position", of_place), ("velocity", of_velocity):
+            for _ in range(3):
+                self._list(name, size)
+        for _ in range(self._count("parts")):
+            part = self._list("part", 1).decode()
+            for _ in range(self._count("columns")):
+                column = self._list("column", 1).decode()
+                self._list(f"{part}.{column}", (8, 4, 4, 8)[self._one("kind", 1)[0]])
 
 
-CHECKPOINT_VERSION = 10
+CHECKPOINT_VERSION = 11
 
 
-def sealed(sections, magic=b"SINEWCKP", mark=0x01020304, version=CHECKPOINT_VERSION):
-    """With the right length and checksum, whatever the sections hold."""
-    body = b"".join(struct.pack("<8sQQ", name.encode(), size, len(values) // size) + values for name, size, values in sections)
+def sealed(fields, magic=b"SINEWCKP", mark=0x01020304, version=CHECKPOINT_VERSION):
+    """With the right length and checksum, whatever the fields hold."""
+    def put(name, size, values):
+        if name == "program":
+            return struct.pack("<8sQQ", b"program", 1, len(values)) + values
+        return values if size == 0 else struct.pack("<Q", len(values) // size) + values
+
+    body = b"".join(put(*field) for field in fields)
     text = struct.pack("<8sIIQ", magic, mark, version, 24 + len(body) + 8) + body
     return text + struct.pack("<Q", hash_of(text))
 
@@ -203,20 +241,23 @@ def section_changes(sections):
     yield "order_twice", other("order", lambda v: v[4:8] + v[4:])
     yield "order_beyond", other("order", lambda v: b"\xff\xff\xff\xff" + v[4:])
     yield "order_none", other("order", lambda v: b"")
-    yield "bonds_more", other("bonds", lambda v: nan * 5)
-    yield "work_nan", other("work", lambda v: nan)
+    yield "pressures_more", other("pressures.numbers", lambda v: nan * 5)
+    yield "work_nan", other("ledgers.bones_work", lambda v: nan)
+    yield "work_none", other("ledgers.bones_work", lambda v: b"")
     yield "first_missing", sections[1:]
     yield "last_missing", sections[:-1]
     yield "none", []
     yield "doubled", sections + sections
     yield "turned", sections[::-1]
-    yield "renamed", [("positron" if n == "position" else n, s, v) for n, s, v in sections]
+    yield "part_renamed", other("part", lambda v: v.replace(b"ledgers", b"lodgers"))
+    yield "column_renamed", other("column", lambda v: v.replace(b"bones_work", b"bones_walk"))
+    yield "kind_unknown", other("kind", lambda v: b"\7")
     yield "larger_elements", [(n, 4 if n == "position" else s, v) for n, s, v in sections]
 
 
 def checkpoint(run):
     whole = (run / "checkpoint/a.bin").read_bytes()
-    sections = sections_of(whole)
+    sections = Fields(whole).all
     assert sealed(sections) == whole
     files = FOREIGN | {name: NOT_FILES[name] for name in ("folder", "pipe")} | cut_short(whole, 16)
     files |= {"magic": sealed(sections, b"SINEWCKQ"), "mark": sealed(sections, mark=0x04030201), "version_0": sealed(sections, version=0),
@@ -226,9 +267,9 @@ def checkpoint(run):
         files[f"flipped_{k}"] = whole[:k] + bytes([whole[k] ^ 4]) + whole[k + 1:]
     for name, changed in section_changes(sections):
         files[f"sections_{name}"] = sealed(changed)
-    counts = [m.start() for m in re.finditer(b"position", whole)]
-    for name, number in {"huge": 2 ** 62, "beyond": 2 ** 64 - 1, "more": 1000}.items():
-        text = whole[:counts[0] + 16] + struct.pack("<Q", number) + whole[counts[0] + 24:-8]
+    at = whole.index(b"pieces") - 8  # the count of letters of a part's name
+    for name, number in {"huge": 2 ** 62, "beyond": 2 ** 64 - 1, "more": 10 ** 6}.items():
+        text = whole[:at] + struct.pack("<Q", number) + whole[at + 8:-8]
         files[f"count_{name}"] = text + struct.pack("<Q", hash_of(text))
     return files
 

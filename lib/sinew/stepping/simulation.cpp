@@ -523,6 +523,7 @@ void Simulation::restore(const SimulationState& state) {
   if (state.body != 0 && state.body != its_->checksum)
     throw not_a_state("its particles at rest, their bones or their binding are others");
   if (state.steps < 0) throw not_a_state("it has " + std::to_string(state.steps) + " steps");
+  if (find_part(state, ledgers_part) == nullptr) throw not_a_state("it has no ledgers");
   const auto ledgers = part_of<Ledgers>(state, ledgers_part);
   const auto limited = part_of<LimitedSpeeds>(state, "limited speeds");
   if (!ledgers.finite()) throw not_a_state("its energies are not finite");
