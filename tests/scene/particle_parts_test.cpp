@@ -78,8 +78,8 @@ Triangles tube(double a, double b, double height) {
     const int at = 4 * k, next = 4 * ((k + 1) % sectors);  // order: bore, bore above, shaft, above
     const int pairs[4][2] = {{1, 0}, {2, 3}, {0, 2}, {3, 1}};
     for (const auto& [p, q] : pairs) {
-      made.faces.push_back({at + p, next + q, next + p});
-      made.faces.push_back({at + p, at + q, next + q});
+      made.faces.push_back({at + p, next + p, next + q});
+      made.faces.push_back({at + p, next + q, at + q});
     }
   }
   return made;

@@ -54,7 +54,7 @@ const std::vector<FeatureRow> table = {
     row(bonds_alone, "bonds alone", {"material.model"}, {}, "=bonded_volume"),
     row(k1, "one stiffness of all", {"material.k1"}, {}, "give material.young_modulus instead"),
     row(nearest_bonds, "bonds of nearest neighbors alone", {"material.isotropic"},
-        {{elements, "they are isotropic"}}, "use a bonded model in fcc"),
+        {{elements, "they are isotropic"}}, "use a bonded material.model in fcc"),
     row(isotropy, "isotropy", {"material.isotropic"}, {{paper, no_bonds}, hcp}),
     row(part_stiffness, "parts of other stiffness", {"materials", "bodies"}, {nearest_bonds, k1}),
     row(part_ratio, "parts of other Poisson's ratio", {"materials"},
