@@ -82,10 +82,10 @@ void serialize(Archive& archive, Checkpoint& checkpoint) {
   bool has_begun = begun != nullptr;
   archive(has_begun);
   if (!has_begun) return;
-  auto of_begin =
-      begun ? std::const_pointer_cast<SimulationState>(begun) : std::make_shared<SimulationState>();
-  archive(*of_begin);
-  begun = std::move(of_begin);
+  if (begun) return archive(*std::const_pointer_cast<SimulationState>(begun));  // is written
+  const auto read = std::make_shared<SimulationState>();
+  archive(*read);
+  begun = read;
 }
 
 namespace {
