@@ -331,6 +331,18 @@ probes:
             done = sinew("check", self.scene(f"supports:\n  - {{name: s, facing: [0, 0, -1], hold: {hold}}}\n" + load))
             self.assertEqual("load 'hand' acts on held particles" in done.stderr + done.stdout, doubtful)
 
+    def test_check_tells_where_the_faces_of_supports_and_loads_look(self):
+        for offset in "[0, 0, 0]", "[7, -3, 2]":
+            scene = self.scene(PULL.format(by=0) + "loads: [{name: sea, pressure: 1}, {name: weight, gravity: [0, 0, -1]}]\n")
+            scene.write_text(scene.read_text().replace("body:\n", f"body:\n  offset: {offset}\n"))
+            told = {one["part"]: one for one in json.loads(sinew("check", scene, "--json").stdout)["faces_of_parts"]}
+            self.assertEqual(list(told), ["below", "above", "sea"])  # a weight has no faces
+            for name, side in ("below", "-z"), ("above", "+z"):
+                self.assertEqual(list(told[name]["area_along"]), [side])
+                self.assertAlmostEqual(told[name]["area_along"][side] / AREA, 1, places=9)
+            self.assertEqual(len(told["sea"]["area_along"]), 6)
+            self.assertIn("faces_of_part: sea, ", sinew("check", scene).stdout)
+
     def test_mistakes_are_named_with_their_line_and_cure(self):
         for machine, said in [
                 ("supports:\n  - {name: a, low: [1, 1, 1], high: [2, 2, 2]}\n",

@@ -196,6 +196,7 @@ void add_spans(const Prepared& prepared, Findings& results) {
 void add_faces(const Prepared& prepared, Findings& results) {
   const ParticleParts parts(prepared.settings, prepared.body, prepared.surface.triangles,
                             prepared.filled.component);
+  auto all = nlohmann::ordered_json::array();
   const auto add = [&](const std::string& name, const PartSettings& part, const std::string& path) {
     const Triangles faces = parts.faces(part, path);
     std::map<std::string, double> area_by_axis;
@@ -208,11 +209,15 @@ void add_faces(const Prepared& prepared, Findings& results) {
       sum += area.norm();
     }
     std::string shares;
-    for (const auto& [axis, area] : area_by_axis)
+    auto along = nlohmann::ordered_json::object();
+    for (const auto& [axis, area] : area_by_axis) {
       shares +=
           (shares.empty() ? ": " : ", ") + three_digits(100 * area / sum) + " % along " + axis;
+      along[axis] = area;
+    }
     results.add_line("faces_of_part", name + ", " + std::to_string(faces.faces.size()) +
                                           " faces, " + three_digits(sum) + " m^2" + shares);
+    all.push_back({{"part", name}, {"faces", faces.faces.size()}, {"area_along", along}});
   };
   const Settings& settings = prepared.settings;
   for (std::size_t k = 0; k < settings.supports.size(); ++k)
@@ -221,6 +226,7 @@ void add_faces(const Prepared& prepared, Findings& results) {
   for (std::size_t k = 0; k < settings.loads.size(); ++k)
     if (const auto& one = settings.loads[k]; one.pressure || one.traction || one.part.faces())
       add(one.name, one.part, path_of_one("loads", k));
+  if (!all.empty()) results.add_value("faces_of_parts", std::move(all));
 }
 
 /// What the flesh of bones that stretch reaches from end to end.
