@@ -320,27 +320,6 @@ TEST_F(ReadGltfRig, UnitesSkins) {
   EXPECT_EQ(rig.weights.of(half)[0].bone, 2) << "joint 0 of the second skin";
 }
 
-TEST_F(ReadGltfRig, RefusesSkinsBoundApart) {
-  Gltf gltf = bar();
-  const Affine lower = Affine::Identity(), upper(Eigen::Translation3d(0, 0, -1.5));
-  const int skin = gltf.add(
-      "skins", {{"joints", {0, 1}}, {"inverseBindMatrices", gltf.matrices({lower, upper})}});
-  gltf.json["scenes"][0]["nodes"].push_back(gltf.node({{"mesh", 0}, {"skin", skin}}));
-  expect_bad_input(
-      [&] { read(gltf); },
-      {"skins 0 and 1 bind joint 'upper' (node 1) at places 0.500000 m apart", "in the same pose"});
-}
-
-TEST_F(ReadGltfRig, RefusesUnevenBinds) {
-  Gltf gltf = bar();
-  gltf.json["nodes"][0]["scale"] = {1, 1, 1.2};
-  expect_bad_input([&] { read(gltf); }, {"uneven scale", "joint 'lower' (node 0)"});
-}
-
-TEST_F(ReadGltfRig, RefusesAFileWithoutASkin) {
-  expect_bad_input([&] { read(one_tetrahedron()); }, {"it has no skin", "with its armature"});
-}
-
 TEST(BoxBendGlb, MovesAsTheSceneOfTheSameName) {
   const std::filesystem::path source = test::source_dir();
   const Settings settings = read_scene(source / "configs/box_bend.yaml");

@@ -186,6 +186,17 @@ Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skel
   return motion;
 }
 
+KeyDefinition key_of(const LocalMotion& motion, double time) {
+  const Quat& q = motion.rotation;
+  KeyDefinition key;
+  key.time = time;
+  key.quaternion = {q.w(), q.x(), q.y(), q.z()};
+  key.twist = degrees(motion.twist);
+  key.translation = motion.translation;
+  key.stretch = motion.stretch;
+  return key;
+}
+
 TrackDefinition track_of(std::string bone, std::span<const double> times,
                          std::span<const Quat> rotations) {
   if (times.size() != rotations.size())

@@ -98,6 +98,9 @@ Motion placed(Motion motion, const Placement& placement);
 Motion make_motion(std::span<const TrackDefinition> tracks, const Skeleton& skeleton,
                    std::optional<double> frame_rate = {});
 
+/// The key that gives this motion at a time (s), without its rates.
+KeyDefinition key_of(const LocalMotion& motion, double time);
+
 /// A track of arrays: a rotation of the bone at each time (s), from rest, in the directions of its
 /// parent; between them by the shortest way. Throws bad input where there are not as many.
 TrackDefinition track_of(std::string bone, std::span<const double> times,

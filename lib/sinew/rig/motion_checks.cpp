@@ -107,6 +107,30 @@ double first_key(const Motion& motion) {
   return std::isfinite(first) ? first : 0;
 }
 
+MovingBones moving_bones(const Skeleton& skeleton, const Motion& motion) {
+  constexpr double min_turn = pi / 180, min_travel = 1e-3;
+  const auto changes = [](const auto& values, double threshold, const auto& distance) {
+    return std::any_of(values.begin(), values.end(), [&](const auto& value) {
+      return distance(values.front(), value) > threshold;
+    });
+  };
+  const auto angle = [](const Quat& a, const Quat& b) { return a.angularDistance(b); };
+  const auto apart = [](double a, double b) { return std::abs(a - b); };
+  const auto distance = [](const Vec3& a, const Vec3& b) { return (a - b).norm(); };
+  const double travel = min_travel * bounds(skeleton).diagonal().norm();
+  MovingBones moving;
+  for (const Track& track : motion.tracks) {
+    const bool turns = changes(track.rotation.values, min_turn, angle) ||
+                       changes(track.twist.values, min_turn, apart);
+    if (turns) moving.turned.push_back(track.bone);
+    if (turns || changes(track.translation.values, travel, distance))
+      moving.all.push_back(track.bone);
+  }
+  std::sort(moving.turned.begin(), moving.turned.end());
+  std::sort(moving.all.begin(), moving.all.end());
+  return moving;
+}
+
 std::vector<LimitPassed> limits_passed(const Skeleton& skeleton, const Motion& motion) {
   std::vector<LimitPassed> all;
   for (const Track& track : motion.tracks) {

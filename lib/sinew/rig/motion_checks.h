@@ -28,6 +28,13 @@ Excess limit(const Bone& bone, LocalMotion& motion);
 /// The first key of a clip, s; 0 where no curve has several. All before it is one pose.
 double first_key(const Motion& motion);
 
+/// The bones that a clip turns by over a degree from key to key, or moves by over a thousandth of
+/// the skeleton's size. Those of poses move none.
+struct MovingBones {
+  std::vector<int> turned, all;  ///< ascending
+};
+MovingBones moving_bones(const Skeleton& skeleton, const Motion& motion);
+
 struct LimitPassed {
   int bone = no_bone;
   double time = 0;  ///< time of the first excess, s of the scene

@@ -26,38 +26,36 @@ void check(const Skeleton& skeleton, const BoneRotations& rotations, double over
       throw bad_input("there is no bone '" + name + "'", "take one of " + names_of(skeleton));
 }
 
-KeyDefinition key_of(const LocalMotion& local, double time) {
-  const Quat& q = local.rotation;
-  KeyDefinition key;
-  key.time = time;
-  key.quaternion = {q.w(), q.x(), q.y(), q.z()};
-  key.twist = degrees(local.twist);
-  key.translation = local.translation;
-  key.stretch = local.stretch;
-  return key;
-}
-
 }  // namespace
 
 Posing::Posing(Skeleton skeleton, Motion motion)
     : skeleton_(std::move(skeleton)), motion_(std::move(motion)) {}
 
 void Posing::turn(const BoneRotations& rotations, double time, double over) {
-  check(skeleton_, rotations, over);
-  BoneRotations targets = targets_;
-  for (const auto& [name, rotation] : rotations) targets[name] = rotation;
-  const std::vector<LocalMotion> now = local_motions(skeleton_, motion_, time);
+  PosedTurn next{time, over, local_motions(skeleton_, motion_, time),
+                 last_ ? last_->targets : BoneRotations()};
+  for (const auto& [name, rotation] : rotations) next.targets[name] = rotation;
+  repeat(next);
+}
+
+void Posing::repeat(const PosedTurn& turn) {
+  check(skeleton_, turn.targets, turn.over);
+  if (turn.from.size() != skeleton_.size() || !std::isfinite(turn.time))
+    throw bad_input("the saved pose is of other bones",
+                    "restore one that the same scene has saved");
   std::vector<TrackDefinition> tracks;
-  for (std::size_t bone = 0; bone < now.size(); ++bone) {
+  for (std::size_t bone = 0; bone < turn.from.size(); ++bone) {
     const std::string& name = skeleton_.bones[bone].name;
-    LocalMotion then = now[bone];
-    if (const auto target = targets.find(name); target != targets.end())
+    LocalMotion then = turn.from[bone];
+    if (const auto target = turn.targets.find(name); target != turn.targets.end())
       then.rotation = target->second;
-    tracks.push_back(
-        {name, Interpolation::smooth, "xyz", {key_of(now[bone], time), key_of(then, time + over)}});
+    tracks.push_back({name,
+                      Interpolation::smooth,
+                      "xyz",
+                      {key_of(turn.from[bone], turn.time), key_of(then, turn.time + turn.over)}});
   }
   motion_ = played(make_motion(tracks, skeleton_), {});
-  targets_ = std::move(targets);
+  last_ = turn;
 }
 
 }  // namespace sinew

@@ -93,7 +93,7 @@ void check_values(const GltfDocument& document, const GltfSampler& sampler, Gltf
 void check_channel(const GltfDocument& document, const GltfAnimation& animation,
                    const GltfChannel& channel, const std::string& user) {
   check_index(channel.sampler, animation.samplers, user, "sampler");
-  if (channel.node < 0 || channel.path == GltfPath::other) return;
+  if (channel.node < 0 || channel.path >= GltfPath::weights) return;
   check_index(channel.node, document.nodes, user, "node");
   if (!document.nodes[static_cast<std::size_t>(channel.node)].matrix.empty())
     throw damaged_gltf(user + " moves node " + std::to_string(channel.node) +
@@ -109,14 +109,14 @@ void check_targets(const GltfAnimation& animation, const std::string& user) {
       throw damaged_gltf(user + " moves node " + std::to_string(channel.node) + " twice");
 }
 
-void check_animation(const GltfDocument& document, GltfAnimation& animation,
-                     const std::string& user) {
+void check_animation(GltfDocument& document, GltfAnimation& animation, const std::string& user) {
   for (std::size_t i = 0; i < animation.samplers.size(); ++i)
     check_times(document, animation.samplers[i], user + '.' + nth("samplers", i));
   for (std::size_t i = 0; i < animation.channels.size(); ++i)
     check_channel(document, animation, animation.channels[i], user + '.' + nth("channels", i));
-  std::erase_if(animation.channels, [](const GltfChannel& channel) {
-    return channel.node < 0 || channel.path == GltfPath::other;
+  std::erase_if(animation.channels, [&](const GltfChannel& channel) {
+    document.moves_morphs = document.moves_morphs || channel.path == GltfPath::weights;
+    return channel.node < 0 || channel.path >= GltfPath::weights;
   });
   check_targets(animation, user);
 }

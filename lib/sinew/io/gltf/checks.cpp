@@ -8,30 +8,46 @@
 
 #include <sinew/core/file.h>
 #include <sinew/core/text.h>
+#include <sinew/io/gltf/converted.h>
 #include <sinew/io/gltf/detail/accessors.h>
+#include <sinew/io/gltf/detail/compression.h>
 #include <sinew/io/gltf/detail/container.h>
 
 namespace sinew {
 namespace {
 
-/// Extensions about appearance and light, which do not change shapes.
+/// Extensions that are read, or about appearance, light and avatars, which do not change shapes.
 bool leaves_shapes(std::string_view extension) {
-  constexpr std::array<std::string_view, 8> harmless = {
-      "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
-      "KHR_lights_",    "EXT_lights_",  "KHR_xmp",      "KHR_animation_pointer"};
+  if (std::ranges::count(gltf_codecs, extension) > 0) return true;
+  constexpr std::array<std::string_view, 14> harmless = {"KHR_materials_",
+                                                         "KHR_texture_",
+                                                         "EXT_texture_",
+                                                         "MSFT_texture_",
+                                                         "KHR_lights_",
+                                                         "EXT_lights_",
+                                                         "KHR_xmp",
+                                                         "KHR_animation_pointer",
+                                                         "KHR_node_",
+                                                         "EXT_mesh_features",
+                                                         "EXT_structural_metadata",
+                                                         "FB_ngon_encoding",
+                                                         "VRM",
+                                                         "KHR_mesh_quantization"};
   return std::any_of(harmless.begin(), harmless.end(),
                      [&](std::string_view start) { return extension.starts_with(start); });
 }
 
 std::string cure_for(std::string_view extension) {
   const auto names = [&](const char* part) { return extension.find(part) != extension.npos; };
-  if (names("draco") || names("meshopt")) return "export without mesh compression";
-  if (names("quantization")) return "export without quantization";
+  if (extension == "EXT_meshopt_compression")
+    return "export without mesh compression, or build sinew with libmeshoptimizer-dev";
+  if (names("draco")) return "export without mesh compression, or build sinew with libdraco-dev";
+  if (names("meshopt")) return "export without mesh compression";
   if (names("instancing")) return "export without instancing";
   return "export without it";
 }
 
-/// glTF 2 without required extensions that change shapes.
+/// glTF 2 without required extensions that change shapes and are not read.
 void check_version(const GltfDocument& document) {
   const auto is_2 = [](std::string_view version) { return version.starts_with("2."); };
   if (!is_2(document.version) || document.min_version > "2.0")
@@ -43,20 +59,25 @@ void check_version(const GltfDocument& document) {
       throw bad_input("it needs the extension " + shown(extension), cure_for(extension));
 }
 
-/// Every view lies in its buffer; then the buffers are joined: views count from the start.
+/// Every view lies in its buffer; then the buffers are joined: views count from the start. Of
+/// packed views this holds for what they are packed in.
 void join_buffers(GltfDocument& document) {
+  const bool unpacks = std::ranges::count(gltf_codecs, "EXT_meshopt_compression") > 0;
   std::vector<std::int64_t> starts = {0};
   for (const GltfBuffer& buffer : document.buffers) starts.push_back(starts.back() + buffer.size);
   for (std::size_t i = 0; i < document.views.size(); ++i) {
     GltfView& view = document.views[i];
-    check_index(view.buffer, document.buffers, nth("bufferViews", i), "buffer");
-    const auto buffer = static_cast<std::size_t>(view.buffer);
-    if (view.offset + view.size > document.buffers[buffer].size)
-      throw damaged_gltf(nth("bufferViews", i) + " ends at byte " +
-                         std::to_string(view.offset + view.size) + " of a buffer of " +
-                         std::to_string(document.buffers[buffer].size));
-    view.offset += starts[buffer];
-    view.buffer = 0;
+    if (!unpacks) view.packed.reset();
+    int& index = view.packed ? view.packed->buffer : view.buffer;
+    std::int64_t& offset = view.packed ? view.packed->offset : view.offset;
+    const std::int64_t size = view.packed ? view.packed->size : view.size;
+    check_index(index, document.buffers, nth("bufferViews", i), "buffer");
+    const auto buffer = static_cast<std::size_t>(index);
+    if (offset + size > document.buffers[buffer].size)
+      throw damaged_gltf(nth("bufferViews", i) + " ends at byte " + std::to_string(offset + size) +
+                         " of a buffer of " + std::to_string(document.buffers[buffer].size));
+    offset += starts[buffer];
+    index = 0;
   }
   document.buffers.clear();
 }
@@ -126,11 +147,24 @@ void check_accessors(const CheckedGltf& gltf) {
     if (accessors[i].sparse) check_sparse(gltf, i);
 }
 
+/// Whole numbers of up to 16 bits are those of KHR_mesh_quantization.
 void check_positions(const GltfAccessor& accessor, const std::string& user) {
-  if (accessor.type != "VEC3" || accessor.number != GltfNumber::float32)
+  if (accessor.type != "VEC3" || accessor.number == GltfNumber::uint32)
     throw bad_input(user + " are " + accessor.type + " of component type " +
-                        std::to_string(static_cast<int>(accessor.number)) + ", not VEC3 of 5126",
-                    "export positions as floats, without quantization");
+                        std::to_string(static_cast<int>(accessor.number)) +
+                        ", not VEC3 of 5126 or 5120 to 5123",
+                    "export positions as floats");
+}
+
+/// Targets without data are zero.
+void check_target(const GltfDocument& document, int target, std::int64_t points,
+                  const std::string& user) {
+  check_index(target, document.accessors, user, "accessor");
+  const GltfAccessor& accessor = document.accessors[static_cast<std::size_t>(target)];
+  check_positions(accessor, user);
+  if (accessor.count != points)
+    throw damaged_gltf(user + " have " + std::to_string(accessor.count) + " of " +
+                       std::to_string(points) + " points");
 }
 
 void check_corners(const GltfAccessor& accessor, const std::string& user) {
@@ -150,6 +184,8 @@ void check_surface(const GltfDocument& document, const GltfPrimitive& primitive,
   const std::string positions = user + "'s positions", indices = user + "'s indices";
   const GltfAccessor* corners = &accessor_of(document, primitive.positions(), positions);
   check_positions(*corners, positions);
+  for (const int target : primitive.targets)
+    if (target >= 0) check_target(document, target, corners->count, user + "'s morph targets");
   if (primitive.indices >= 0) {
     corners = &accessor_of(document, primitive.indices, indices);
     check_corners(*corners, indices);
@@ -220,6 +256,7 @@ CheckedGltf checked(const GltfContainer& container, const std::filesystem::path&
   check_version(document);
   gltf.bytes = gltf_bytes(document.buffers, container.binary, folder);
   join_buffers(document);
+  unpack_gltf(gltf);
   check_accessors(gltf);
   for_each_primitive(document, [&](const GltfPrimitive& primitive, const std::string& user) {
     check_primitive(document, primitive, user);
@@ -242,9 +279,10 @@ const GltfAccessor& accessor_of(const GltfDocument& document, int index, const s
 }
 
 CheckedGltf checked_gltf(const std::filesystem::path& path) {
-  std::string file = read_gltf_file(path);  // its errors name the path
+  const std::filesystem::path source = gltf_of(path);
+  std::string file = read_gltf_file(source);  // its errors name the path
   try {
-    return checked(gltf_container(std::move(file), path.extension()), path.parent_path());
+    return checked(gltf_container(std::move(file), source.extension()), source.parent_path());
   } catch (const Error& error) {
     throw error.with_context({path.string()});
   }

@@ -15,10 +15,11 @@
 namespace sinew {
 
 /// A consistent document. Every index refers to an element; every element lies in its view, every
-/// view in `bytes`; nodes form trees of moderate depth. Positions are VEC3 of floats, corners whole
-/// numbers, as many as their mode requires. Skins have a bind matrix for every joint and surfaces
-/// joints and weights for every vertex, if any; animations have values for every time. The numbers
-/// themselves (corners, coordinates, times, weights) are not checked.
+/// view in `bytes`; nodes form trees of moderate depth. Positions are VEC3 of floats or of up to 16
+/// bits, those of morph targets as many; corners whole numbers, as many as their mode requires.
+/// Skins have a bind matrix for every joint and surfaces joints and weights for every vertex, if
+/// any; animations have values for every time. The numbers themselves (corners, coordinates, times,
+/// weights) are not checked.
 struct CheckedGltf {
   GltfDocument document;    ///< no buffers: the views' offsets count from the start of `bytes`
   std::vector<char> bytes;  ///< all buffers, below 2 GiB
@@ -26,7 +27,8 @@ struct CheckedGltf {
   std::vector<int> shown;   ///< the nodes of the default scene, parents first
 };
 
-/// Reads a .gltf with its buffers, or a .glb. Buffers are taken from data URIs and from files in
+/// Reads a .gltf with its buffers, or a .glb; what Blender has to convert (converted.h) by way of
+/// one. Buffers are taken from data URIs and from files in
 /// the folder of `path` or below. Throws bad input, with the path.
 CheckedGltf checked_gltf(const std::filesystem::path& path);
 

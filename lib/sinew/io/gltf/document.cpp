@@ -124,10 +124,14 @@ class Field {
     return named;
   }
 
-  /// `count` numbers that fit single precision, or none.
-  std::vector<double> numbers(std::size_t count) const {
+  /// Numbers that fit single precision.
+  std::vector<double> numbers() const {
     std::vector<double> numbers;
     for (const Json& item : array()) numbers.push_back(number_in(item, name_));
+    return numbers;
+  }
+  std::vector<double> numbers(std::size_t count) const {  ///< so many, or none
+    std::vector<double> numbers = this->numbers();
     if (given() && numbers.size() != count)
       throw damaged_gltf(name_ + " holds " + std::to_string(numbers.size()) + " numbers, not " +
                          std::to_string(count));
@@ -178,13 +182,20 @@ std::string text_in(const Field& field) { return field.text(); }
 
 GltfBuffer buffer_in(const Field& field) {
   const Field uri = field["uri"];
-  return {field["byteLength"].whole(1), uri.given() ? std::optional(uri.text()) : std::nullopt};
+  return {field["byteLength"].whole(1), uri.given() ? std::optional(uri.text()) : std::nullopt,
+          field["extensions"]["EXT_meshopt_compression"]["fallback"].flag()};
 }
 
 GltfView view_in(const Field& field) {
   const Field stride = field["byteStride"];
-  return {field["buffer"].index(), field["byteOffset"].whole_or(0), field["byteLength"].whole(1),
-          stride.given() ? stride.whole(4, 252) : 0};
+  GltfView view{field["buffer"].index(), field["byteOffset"].whole_or(0),
+                field["byteLength"].whole(1), stride.given() ? stride.whole(4, 252) : 0};
+  if (const Field packed = field["extensions"]["EXT_meshopt_compression"]; packed.given())
+    view.packed = {packed["buffer"].index(),       packed["byteOffset"].whole_or(0),
+                   packed["byteLength"].whole(1),  packed["byteStride"].whole(1, 256),
+                   packed["count"].whole(1),       packed["mode"].text(),
+                   packed["filter"].text_or_none()};
+  return view;
 }
 
 GltfNumber kind_in(const Field& field) {
@@ -222,13 +233,25 @@ GltfAccessor accessor_in(const Field& field) {
 
 GltfPrimitive primitive_in(const Field& field) {
   const Field mode = field["mode"];
-  return {mode.given() ? static_cast<GltfMode>(mode.whole(0, 6)) : GltfMode::triangles,
-          field["indices"].index_or_none(), field["material"].index_or_none(),
-          field["attributes"].named_indices()};
+  GltfPrimitive primitive{
+      mode.given() ? static_cast<GltfMode>(mode.whole(0, 6)) : GltfMode::triangles,
+      field["indices"].index_or_none(),
+      field["material"].index_or_none(),
+      field["attributes"].named_indices(),
+      -1,
+      {},
+      {}};
+  if (const Field draco = field["extensions"]["KHR_draco_mesh_compression"]; draco.given()) {
+    primitive.draco = draco["bufferView"].index();
+    primitive.draco_attributes = draco["attributes"].named_indices();
+  }
+  for (const Field& target : field["targets"].items())
+    primitive.targets.push_back(target["POSITION"].index_or_none());
+  return primitive;
 }
 
 GltfMesh mesh_in(const Field& field) {
-  GltfMesh mesh{field.given_name(), {}};
+  GltfMesh mesh{field.given_name(), {}, field["weights"].numbers()};
   for (const Field& primitive : field["primitives"].items())
     mesh.primitives.push_back(primitive_in(primitive));
   return mesh;
@@ -253,6 +276,7 @@ GltfNode node_in(const Field& field) {
   node.translation = field["translation"].numbers(3);
   node.rotation = rotation_in(field["rotation"]);
   node.scale = field["scale"].numbers(3);
+  node.weights = field["weights"].numbers();
   if (field["extensions"]["EXT_mesh_gpu_instancing"].given())
     throw bad_input(field.name() + " repeats its mesh by EXT_mesh_gpu_instancing",
                     "export without instancing");
@@ -284,13 +308,13 @@ GltfSampler sampler_in(const Field& field) {
   return sampler;
 }
 
-/// Weights are those of morph targets; pointers refer to other things than nodes.
+/// Pointers refer to other things than nodes.
 GltfChannel channel_in(const Field& field) {
   const Field target = field["target"];
   const GltfPath path = word_in<GltfPath>(target["path"], {{"translation", GltfPath::translation},
                                                            {"rotation", GltfPath::rotation},
                                                            {"scale", GltfPath::scale},
-                                                           {"weights", GltfPath::other},
+                                                           {"weights", GltfPath::weights},
                                                            {"pointer", GltfPath::other}});
   return {field["sampler"].index(), target["node"].index_or_none(), path};
 }

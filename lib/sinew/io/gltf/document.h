@@ -19,12 +19,22 @@ namespace sinew {
 struct GltfBuffer {
   std::int64_t size = 0;           ///< bytes
   std::optional<std::string> uri;  ///< none: the binary chunk of a .glb
+  bool fallback = false;           ///< stands for what EXT_meshopt_compression packs, without data
+};
+
+/// How EXT_meshopt_compression packs a view.
+struct GltfPacked {
+  int buffer = -1;
+  std::int64_t offset = 0, size = 0;   ///< bytes
+  std::int64_t stride = 0, count = 0;  ///< bytes of an element, elements
+  std::string mode, filter;
 };
 
 struct GltfView {
   int buffer = -1;
   std::int64_t offset = 0, size = 0;  ///< bytes
   std::int64_t stride = 0;            ///< bytes from element to element, 0 where contiguous
+  std::optional<GltfPacked> packed = {};
 };
 
 /// Number types with OpenGL's codes.
@@ -62,7 +72,10 @@ struct GltfPrimitive {
   GltfMode mode = GltfMode::triangles;
   int indices = -1;
   int material = -1;
-  std::map<std::string, int> attributes;  ///< "POSITION", ... -> accessor
+  std::map<std::string, int> attributes;        ///< "POSITION", ... -> accessor
+  int draco = -1;                               ///< view of KHR_draco_mesh_compression, if any
+  std::map<std::string, int> draco_attributes;  ///< "POSITION", ... -> id in it
+  std::vector<int> targets;  ///< accessors of what morph targets add to points, -1 for none
 
   /// Whether it has triangles to draw.
   bool is_surface() const { return mode >= GltfMode::triangles && attributes.contains("POSITION"); }
@@ -72,6 +85,7 @@ struct GltfPrimitive {
 struct GltfMesh {
   std::string name;
   std::vector<GltfPrimitive> primitives;
+  std::vector<double> weights;  ///< weights of morph targets at rest, or none
 };
 
 struct GltfNode {
@@ -80,6 +94,7 @@ struct GltfNode {
   int mesh = -1, skin = -1;
   std::vector<double> matrix;  ///< 16, column by column, or none: then the other three
   std::vector<double> translation, rotation, scale;  ///< 3, 4 (x y z w, unit length), 3, or none
+  std::vector<double> weights;                       ///< in place of the mesh's, or none
 };
 
 /// The nodes that move a mesh.
@@ -97,7 +112,7 @@ struct GltfSampler {
   GltfInterpolation interpolation = GltfInterpolation::linear;
 };
 
-enum class GltfPath { translation, rotation, scale, other };
+enum class GltfPath { translation, rotation, scale, weights, other };
 
 /// One property of a node that follows a sampler.
 struct GltfChannel {
@@ -124,6 +139,7 @@ struct GltfDocument {
   std::vector<GltfAnimation> animations;
   std::vector<std::vector<int>> scenes;  ///< the topmost nodes of each
   int scene = -1;                        ///< the default one
+  bool moves_morphs = false;             ///< whether an animation changes weights of morph targets
 };
 
 /// Bytes of one number, numbers of one element ("VEC3": 3; 0 for an unknown type).

@@ -21,6 +21,7 @@ using OrderedJson = nlohmann::ordered_json;
 using Floats = std::vector<float>;
 
 constexpr std::size_t max_clip_samples = 500;
+// Browsers keep a buffer in one array, of up to 2 GiB, beside what they draw of it.
 constexpr std::size_t max_bytes = std::size_t{1} << 30;
 
 /// A JSON list of one element.

@@ -2,7 +2,7 @@
 #include <sinew/io/gltf/node_tree.h>
 
 #include <algorithm>
-#include <optional>
+#include <utility>
 
 #include <sinew/core/decompositions.h>
 #include <sinew/core/text.h>
@@ -13,7 +13,8 @@ namespace {
 
 constexpr int longest_chain = 1000;    // the longest chains have about 200
 constexpr double uneven_scale = 0.01;  // far above single precision and exporters' rounding
-constexpr double apart = 0.001;        // fraction of the skeleton's size
+constexpr double flat = 1e-6;          // ratio of scales of what cannot be inverted
+constexpr double apart = 0.001;        // fraction of the skeleton's size, and of a scale
 
 /// Each node's parent, -1 for none.
 std::vector<int> parents_of(const GltfDocument& document) {
@@ -81,22 +82,79 @@ std::vector<Affine> inverse_binds(const CheckedGltf& gltf, std::size_t skin_inde
   return inverses;
 }
 
-/// The joints of all skins in use, each with the nearest one above it.
-std::vector<GltfJoint> joints_of(const GltfDocument& document, const GltfTree& tree,
-                                 const std::vector<bool>& used) {
-  std::vector<int> place(document.nodes.size(), -1);  // index in joints; else of the joint above
-  std::vector<bool> is_joint(document.nodes.size());
+bool is_flat(const Affine& place) {
+  if (!place.matrix().allFinite()) return true;
+  const Vec3 scales = singular_values(place.linear()).values;
+  return !(scales[2] > flat * scales[0]);
+}
+
+std::vector<Affine> resting_places(const CheckedGltf& gltf) {
+  std::vector<Affine> local;
+  for (const GltfNode& node : gltf.document.nodes) local.push_back(place_of(node).affine());
+  return global_places(gltf.tree, local);
+}
+
+/// For each node, whether an animation moves it.
+std::vector<bool> moved_nodes(const GltfDocument& document) {
+  std::vector<bool> moved(document.nodes.size());
+  for (const GltfAnimation& animation : document.animations)
+    for (const GltfChannel& channel : animation.channels)
+      moved[static_cast<std::size_t>(channel.node)] = true;
+  return moved;
+}
+
+/// Adds the animated nodes that hold meshes without a skin: the nearest one above each, and in a
+/// file without skins all above. A file without meshes has its animated nodes.
+void add_animated(const CheckedGltf& gltf, const std::vector<bool>& animated,
+                  std::vector<bool>& bones) {
+  const bool skinned = !gltf.document.skins.empty();
+  bool meshes = false, held = false;
+  int loose = -1;  // the topmost node above a mesh that nothing moves
+  for (const int index : gltf.shown) {
+    const GltfNode& node = gltf.document.nodes[static_cast<std::size_t>(index)];
+    meshes = meshes || node.mesh >= 0;
+    if (node.mesh < 0 || node.skin >= 0) continue;
+    int top = index;
+    bool moves = false;
+    for (int at = index; at >= 0; at = gltf.tree.parents[static_cast<std::size_t>(at)]) {
+      top = at;
+      if (!animated[static_cast<std::size_t>(at)]) continue;
+      bones[static_cast<std::size_t>(at)] = moves = held = true;
+      if (skinned) break;
+    }
+    if (!moves && loose < 0) loose = top;
+  }
+  if (!skinned && held && loose >= 0) bones[static_cast<std::size_t>(loose)] = true;
+  if (!skinned && !meshes) bones = animated;
+}
+
+/// The nodes that are bones.
+std::vector<bool> bone_nodes(const CheckedGltf& gltf, const std::vector<Affine>& global) {
+  const GltfDocument& document = gltf.document;
+  const std::vector<bool> used = skins_in_use(gltf);
+  std::vector<bool> bones(document.nodes.size());
   for (std::size_t i = 0; i < used.size(); ++i)
     for (const int node : used[i] ? document.skins[i].joints : std::vector<int>())
-      is_joint[static_cast<std::size_t>(node)] = true;
+      bones[static_cast<std::size_t>(node)] = true;
+  std::vector<bool> animated = moved_nodes(document);
+  for (std::size_t i = 0; i < bones.size(); ++i)
+    animated[i] = bones[i] || (animated[i] && !is_flat(global[i]));
+  add_animated(gltf, animated, bones);
+  return bones;
+}
+
+/// The bones with the nearest one above each; `holders`: the nearest one at or above each node.
+std::vector<GltfJoint> joints_of(const GltfTree& tree, const std::vector<bool>& bones,
+                                 std::vector<int>& holders) {
+  holders.assign(bones.size(), -1);
   std::vector<GltfJoint> joints;
   for (const int node : tree.order) {
     const auto at = static_cast<std::size_t>(node);
     const int above = tree.parents[at];
-    place[at] = above < 0 ? -1 : place[static_cast<std::size_t>(above)];
-    if (!is_joint[at]) continue;
-    joints.push_back({node, place[at], Affine::Identity()});
-    place[at] = static_cast<int>(joints.size()) - 1;
+    holders[at] = above < 0 ? -1 : holders[static_cast<std::size_t>(above)];
+    if (!bones[at]) continue;
+    joints.push_back({node, holders[at], Affine::Identity()});
+    holders[at] = static_cast<int>(joints.size()) - 1;
   }
   return joints;
 }
@@ -105,91 +163,168 @@ Error not_invertible(const GltfDocument& document, int node) {
   return damaged_gltf(joint_words(document, node) + " has a bind matrix that cannot be inverted");
 }
 
-void check_bind(const GltfDocument& document, const GltfJoint& joint) {
-  const Mat3 linear = joint.bind.linear() * (joint.bind.linear().determinant() < 0 ? -1 : 1);
-  if (!joint.bind.matrix().allFinite() || !(linear.determinant() > 0))
-    throw not_invertible(document, joint.node);
-  if (even_scale(linear, uneven_scale) > 0) return;
-  const Vec3 scales = linear.colwise().norm();
-  throw bad_input(joint_words(document, joint.node) + " is bound with the uneven scale " +
-                      std::to_string(scales[0]) + " " + std::to_string(scales[1]) + " " +
-                      std::to_string(scales[2]),
-                  "apply its scale before binding");
+/// The smallest scale of a joint over its largest.
+double evenness_of(const GltfDocument& document, const GltfJoint& joint) {
+  if (is_flat(joint.bind)) throw not_invertible(document, joint.node);
+  const Vec3 scales = singular_values(joint.bind.linear()).values;
+  return scales[2] / scales[0];
+}
+
+bool are_one(const std::vector<Affine>& all) {
+  return all.size() > 1 && std::all_of(all.begin(), all.end(), [&](const Affine& one) {
+           return one.matrix() == all[0].matrix();
+         });
+}
+
+/// Whether a transform moves places within a length by more than is told apart.
+bool moves(const Affine& transform, const Vec3& place, double length) {
+  return !((transform.linear() - Mat3::Identity()).norm() <= apart &&
+           (transform * place - place).norm() <= apart * length + 1e-9 * place.norm());
 }
 
 /// Places the skins in the scene one by one.
 class Binder {
  public:
-  explicit Binder(const CheckedGltf& gltf) : document_(gltf.document) {
-    std::vector<Affine> local;
-    for (const GltfNode& node : document_.nodes) local.push_back(place_of(node).affine());
-    global_ = global_places(gltf.tree, local);
+  explicit Binder(const CheckedGltf& gltf)
+      : document_(gltf.document), global_(resting_places(gltf)) {
     const std::vector<bool> used = skins_in_use(gltf);
-    pose_.joints = joints_of(document_, gltf.tree, used);
+    pose_.joints = joints_of(gltf.tree, bone_nodes(gltf, global_), pose_.holders);
     pose_.meshes.assign(used.size(), Affine::Identity());
+    pose_.carried.resize(used.size());
     pose_.places.resize(used.size());
-    bound_by_.assign(pose_.joints.size(), -1);
-    place_of_node_.assign(document_.nodes.size(), -1);
-    for (std::size_t i = 0; i < pose_.joints.size(); ++i)
-      place_of_node_[static_cast<std::size_t>(pose_.joints[i].node)] = static_cast<int>(i);
+    bound_.assign(pose_.joints.size(), false);
     for (std::size_t i = 0; i < used.size(); ++i)
       if (used[i]) bind(gltf, i);
+    place_nodes();
+    warn_of_scale();
   }
 
   GltfBindPose pose() const { return pose_; }
 
  private:
-  /// Places a skin by its first joint that another skin has already bound, else by its topmost one.
-  Affine place_of_skin(const std::vector<int>& places, const std::vector<Affine>& inverses) const {
-    std::size_t top = 0;
+  /// The topmost joint of a skin that scales its mesh as most joints do at rest.
+  std::size_t top_of(const std::vector<int>& places, const std::vector<Affine>& inverses) const {
+    constexpr double similar = 1.5;
+    std::vector<double> scales;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      scales.push_back(
+          std::cbrt(std::abs((resting(places[i]) * inverses[i]).linear().determinant())));
+    std::vector<double> sorted = scales;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    std::size_t top = 0, any = 0;
+    bool found = false;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if (bound_by_[static_cast<std::size_t>(places[i])] >= 0)
-        return joint(places[i]).bind * inverses[i];
-      if (places[i] < places[top]) top = i;
+      if (places[i] < places[any]) any = i;
+      if (!(scales[i] < similar * *middle && scales[i] * similar > *middle)) continue;
+      if (!found || places[i] < places[top]) top = i;
+      found = true;
     }
-    return global_[static_cast<std::size_t>(joint(places[top]).node)] * inverses[top];
+    return found ? top : any;
+  }
+
+  /// Places a skin by its first joint, from `top` on, that another skin has already bound, else by
+  /// `top`.
+  Affine place_of_skin(const std::vector<int>& places, const std::vector<Affine>& inverses,
+                       std::size_t top) const {
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (bound_[static_cast<std::size_t>(places[i])] && places[i] >= places[top])
+        return joint(places[i]).bind * inverses[i];
+    return resting(places[top]) * inverses[top];
   }
 
   void bind(const CheckedGltf& gltf, std::size_t skin) {
     const std::vector<Affine> inverses = inverse_binds(gltf, skin);
     std::vector<int>& places = pose_.places[skin];
     for (const int node : document_.skins[skin].joints)
-      places.push_back(place_of_node_[static_cast<std::size_t>(node)]);
-    pose_.meshes[skin] = place_of_skin(places, inverses);
-    std::vector<Affine> binds;
+      places.push_back(pose_.holders[static_cast<std::size_t>(node)]);
+    const std::size_t top = top_of(places, inverses);
+    pose_.meshes[skin] = place_of_skin(places, inverses, top);
+    const bool unbound = are_one(inverses);
     Box box;
     for (std::size_t i = 0; i < inverses.size(); ++i) {
       if (inverses[i].linear().determinant() == 0)
         throw not_invertible(document_, document_.skins[skin].joints[i]);
-      binds.push_back(pose_.meshes[skin] * inverses[i].inverse());
-      box.extend(binds.back().translation());
+      put(places[i], unbound || places[i] < places[top]
+                         ? resting(places[i])
+                         : pose_.meshes[skin] * inverses[i].inverse());
+      box.extend(joint(places[i]).bind.translation());
     }
-    for (std::size_t i = 0; i < places.size(); ++i)
-      put(places[i], binds[i], static_cast<int>(skin), apart * box.diagonal().norm());
+    carry(skin, inverses, box.diagonal().norm());
   }
 
-  void put(int place, const Affine& bind, int skin, double most) {
-    GltfJoint& joint = pose_.joints[static_cast<std::size_t>(place)];
-    int& by = bound_by_[static_cast<std::size_t>(place)];
-    if (by < 0) {
-      joint.bind = bind;
-      by = skin;
-      return check_bind(document_, joint);
-    }
-    const double distance = (joint.bind.translation() - bind.translation()).norm();
-    if (!(distance <= most + 1e-9 * bind.translation().norm()))
-      throw bad_input("skins " + std::to_string(by) + " and " + std::to_string(skin) + " bind " +
-                          joint_words(document_, joint.node) + " at places " +
-                          std::to_string(distance) + " m apart",
-                      "bind all meshes in the same pose");
+  void put(int place, const Affine& bind) {
+    const auto at = static_cast<std::size_t>(place);
+    if (bound_[at]) return;
+    bound_[at] = true;
+    pose_.joints[at].bind = bind;
+    const double evenness = evenness_of(document_, pose_.joints[at]);
+    if (evenness < min_evenness_) min_evenness_ = evenness, uneven_joint_ = place;
+    uneven_ += evenness < 1 - uneven_scale;
   }
 
+  /// Vertices follow the joints of their own where these are bound otherwise than this skin says.
+  void carry(std::size_t skin, const std::vector<Affine>& inverses, double size) {
+    const Affine back = pose_.meshes[skin].inverse();
+    std::vector<Affine> carried;
+    bool blends = false;
+    for (std::size_t i = 0; i < inverses.size(); ++i) {
+      const Affine& bind = joint(pose_.places[skin][i]).bind;
+      carried.push_back(bind * inverses[i]);
+      blends = blends || moves(carried.back() * back, bind.translation(), size);
+    }
+    if (blends) pose_.carried[skin] = std::move(carried);
+  }
+
+  /// All nodes, parents first, and the bones among them that no skin binds.
+  void place_nodes() {
+    pose_.nodes = global_;
+    for (std::size_t i = 0; i < pose_.joints.size(); ++i)
+      if (!bound_[i])
+        put(static_cast<int>(i),
+            below(joint(static_cast<int>(i)).parent, joint(static_cast<int>(i)).node));
+    for (std::size_t node = 0; node < global_.size(); ++node)
+      pose_.nodes[node] = below(pose_.holders[node], static_cast<int>(node));
+    if (document_.skins.empty()) hold_the_rest();
+  }
+
+  /// Gives meshes that nothing moves to the bone that nothing moves, if there is one.
+  void hold_the_rest() {
+    const std::vector<bool> moved = moved_nodes(document_);
+    int still = -1;
+    for (std::size_t i = 0; i < pose_.joints.size(); ++i)
+      if (!moved[static_cast<std::size_t>(pose_.joints[i].node)]) still = static_cast<int>(i);
+    std::replace(pose_.holders.begin(), pose_.holders.end(), -1, still);
+  }
+
+  /// A node at rest, as it is where the joint above it is bound.
+  Affine below(int above, int node) const {
+    const Affine& place = global_[static_cast<std::size_t>(node)];
+    return above < 0 || is_flat(resting(above))
+               ? place
+               : joint(above).bind * (resting(above).inverse() * place);
+  }
+
+  void warn_of_scale() {
+    if (uneven_ == 0) return;
+    pose_.warning = std::to_string(uneven_) + " of " + std::to_string(pose_.joints.size()) +
+                    " joints are bound with uneven scale, " +
+                    joint_words(document_, joint(uneven_joint_).node) + " by " +
+                    three_digits(100 * (1 / min_evenness_ - 1)) +
+                    " %: bones are rigid, and turn without it";
+  }
+
+  const Affine& resting(int place) const {
+    return global_[static_cast<std::size_t>(joint(place).node)];
+  }
   const GltfJoint& joint(int place) const { return pose_.joints[static_cast<std::size_t>(place)]; }
 
   const GltfDocument& document_;
   std::vector<Affine> global_;
-  std::vector<int> place_of_node_;  // in the list of joints, -1 for others
-  std::vector<int> bound_by_;       // the first skin that binds each joint, -1 for none
+  std::vector<bool> bound_;  // whether a skin has bound each joint
+  std::size_t uneven_ = 0;   // joints
+  double min_evenness_ = 1;
+  int uneven_joint_ = -1;
   GltfBindPose pose_;
 };
 
@@ -246,6 +381,11 @@ Mat3 nearest_rotation(const Mat3& matrix) {
 }
 
 GltfBindPose gltf_bind_pose(const CheckedGltf& gltf) { return Binder(gltf).pose(); }
+
+bool has_bones(const CheckedGltf& gltf) {
+  const std::vector<bool> bones = bone_nodes(gltf, resting_places(gltf));
+  return std::find(bones.begin(), bones.end(), true) != bones.end();
+}
 
 std::string joint_words(const GltfDocument& document, int node) {
   return "joint " + shown(document.nodes[static_cast<std::size_t>(node)].name) + " (node " +

@@ -6,10 +6,19 @@
 //
 // A skin's inverse bind matrices I_j map its mesh's space to that of each joint j, so that in mesh
 // space joint j was bound at I_j^-1. A file does not say how mesh space maps to the scene; here it
-// is M = G I of the skin's topmost joint, with G the joint's transform in the scene by the nodes:
-// the body is bound at its topmost joint, at the scene's scale whatever units the mesh is in. The
-// transform of a joint at bind is M I_j^-1. Skins that share joints are one skeleton, placed by the
-// first of them.
+// is M = G I of the skin's topmost joint that scales as most do (some exporters add a root outside
+// of the armature's scale, which rests where its node does), with G the joint's transform in the
+// scene by the nodes: the body is bound at its topmost joint, at the scene's scale whatever units
+// the mesh is in. The transform of a joint at bind is M I_j^-1. Skins that share joints are one
+// skeleton, placed by the first of them. A skin whose joints have all the same inverse bind matrix,
+// or none, is bound where its nodes rest. In general a joint at bind B_j takes a vertex to B_j I_j:
+// where that is not M, as of meshes bound in another pose, vertices are blended by their weights.
+//
+// Bones without a skin are animated nodes that hold meshes. They are bound at their place below
+// the nearest bone above as it rests, and so are meshes without a skin. In a file without skins the
+// topmost node is a bone for what no animation moves.
+//
+// Joints bound with uneven scale turn by the nearest rotation (polar decomposition).
 #pragma once
 
 #include <string>
@@ -59,20 +68,28 @@ Mat3 nearest_rotation(const Mat3& matrix);
 struct GltfJoint {
   int node = -1;
   int parent = -1;                   ///< the nearest joint above, an earlier one; -1 for none
-  Affine bind = Affine::Identity();  ///< in the scene; scales evenly, to 1 %
+  Affine bind = Affine::Identity();  ///< in the scene
 };
 
 struct GltfBindPose {
-  std::vector<GltfJoint> joints;  ///< joints of all skins in use, each once, depth first
-  std::vector<Affine> meshes;     ///< transform M of each skin's meshes
+  /// Joints of all skins in use, and animated nodes that hold meshes, each once, depth first.
+  std::vector<GltfJoint> joints;
+  std::vector<Affine> nodes;   ///< places of all nodes, those below joints as these are bound
+  std::vector<int> holders;    ///< for each node the joint that its mesh follows, -1 for none
+  std::vector<Affine> meshes;  ///< transform M of each skin's meshes
+  /// B I of each skin's joints where vertices are blended, else none.
+  std::vector<std::vector<Affine>> carried;
   /// Indices of each skin's joints in `joints`; none for a skin that is not in use.
   std::vector<std::vector<int>> places;
+  std::string warning;  ///< about uneven scale, or ""
 };
 
 /// The skins that move a mesh of the scene; all where none does. Throws bad input (without the
-/// path) for a bind matrix that is not finite, cannot be inverted or scales unevenly, and for
-/// skins that bind a joint at positions farther apart than 0.1 % of the skeleton's size.
+/// path) for a bind matrix that is not finite or cannot be inverted.
 GltfBindPose gltf_bind_pose(const CheckedGltf& gltf);
+
+/// Whether the bind pose has joints.
+bool has_bones(const CheckedGltf& gltf);
 
 /// "joint 'hip' (node 3)"
 std::string joint_words(const GltfDocument& document, int node);

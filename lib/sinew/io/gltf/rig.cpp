@@ -2,44 +2,18 @@
 #include <sinew/io/gltf/rig.h>
 
 #include <algorithm>
+#include <map>
 #include <new>
 #include <optional>
-#include <set>
 
-#include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/detail/accessors.h>
-#include <sinew/io/gltf/detail/joint_motion.h>
+#include <sinew/io/gltf/detail/clips.h>
+#include <sinew/io/gltf/detail/weights.h>
 #include <sinew/io/gltf/geometry.h>
 #include <sinew/rig/skeleton.h>
 
 namespace sinew {
 namespace {
-
-constexpr int max_sets = 8;  // exporters write one or two
-
-/// A small file can refer to the same numbers many thousand times.
-void check_size(const GltfDocument& document) {
-  constexpr double key = 100, node = 1000;  // bytes
-  constexpr double max_visits = 1e8;        // visits of nodes, about 10 s
-  constexpr std::size_t max_animations = 10000;
-  double bytes = node * static_cast<double>(document.nodes.size()), keys = 0;
-  for (const GltfAnimation& animation : document.animations)
-    for (const GltfChannel& channel : animation.channels) {
-      const GltfSampler& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
-      keys +=
-          static_cast<double>(document.accessors[static_cast<std::size_t>(sampler.values)].count);
-    }
-  bytes += key * keys;
-  const double visits =
-      static_cast<double>(document.nodes.size()) * static_cast<double>(document.animations.size());
-  if (bytes > available_memory() || visits > max_visits ||
-      document.animations.size() > max_animations)
-    throw bad_input("its " + std::to_string(document.animations.size()) + " animations of " +
-                        std::to_string(document.nodes.size()) + " nodes hold " +
-                        std::to_string(static_cast<std::int64_t>(keys)) + " keys, too many",
-                    "export fewer of them");
-}
 
 const GltfNode& node_of(const GltfDocument& document, int node) {
   return document.nodes[static_cast<std::size_t>(node)];
@@ -60,121 +34,45 @@ std::optional<Vec3> end_of(const GltfDocument& document, const GltfJoint& joint,
   return joint.bind * place_of(child).translation;
 }
 
-Skeleton skeleton_in(const GltfDocument& document, const GltfBindPose& bind) {
+/// Ends of bones without a skin, whose nodes show none: opposite their heads in what they carry. A
+/// single bone carries all.
+std::vector<std::optional<Vec3>> ends_of_rigid(const GltfBindPose& bind,
+                                               const std::vector<GltfShape>& shapes,
+                                               const GltfTriangles& triangles) {
+  std::map<int, int> joint_of_node;
+  for (const GltfShape& shape : shapes) joint_of_node[shape.node] = shape.joint;
+  std::vector<Box> boxes(bind.joints.size());
+  const bool single = boxes.size() == 1;
+  for (std::size_t i = 0; i < triangles.sources.size(); ++i)
+    if (const int joint = single ? 0 : joint_of_node[triangles.sources[i].node]; joint >= 0)
+      boxes[static_cast<std::size_t>(joint)].extend(triangles.soup.points[i]);
+  for (const std::vector<int>& places : bind.places)
+    for (const int joint : single ? std::vector<int>() : places)
+      boxes[static_cast<std::size_t>(joint)] = Box();
+  std::vector<std::optional<Vec3>> ends(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (boxes[i].isEmpty()) continue;
+    const Vec3 head = bind.joints[i].bind.translation(), way = 2 * (boxes[i].center() - head);
+    const double size = boxes[i].diagonal().norm();
+    ends[i] = head + (way.norm() > 0.1 * size ? way : Vec3(0, size / 2, 0));
+  }
+  return ends;
+}
+
+Skeleton skeleton_in(const GltfDocument& document, const GltfBindPose& bind,
+                     const std::vector<std::optional<Vec3>>& rigid) {
   std::vector<bool> leaf(bind.joints.size(), true);
   for (const GltfJoint& joint : bind.joints)
     if (joint.parent >= 0) leaf[static_cast<std::size_t>(joint.parent)] = false;
   std::vector<Joint> joints;
-  for (const GltfJoint& joint : bind.joints)
-    joints.push_back({node_of(document, joint.node).name, joint.parent, joint.bind.translation(),
-                      end_of(document, joint, leaf[joints.size()])});
+  for (const GltfJoint& joint : bind.joints) {
+    std::optional<Vec3> end = end_of(document, joint, leaf[joints.size()]);
+    if (!end && leaf[joints.size()]) end = rigid[joints.size()];
+    joints.push_back(
+        {node_of(document, joint.node).name, joint.parent, joint.bind.translation(), end});
+  }
   return skeleton_of(joints,
                      "give their nodes different places, or one of them a child as its end");
-}
-
-/// Sets the clip's frames where its keys are evenly spaced.
-void count_frames(const std::vector<double>& times, Clip& clip) {
-  constexpr double uneven = 0.01;  // fraction of a frame; times are in single precision
-  if (times.size() < 2) return;
-  const double first = times.front(), count = static_cast<double>(times.size());
-  const double frame = (times.back() - first) / (count - 1);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    if (std::abs(times[i] - first - frame * static_cast<double>(i)) > uneven * frame) return;
-  clip.frames = static_cast<int>(times.size());
-  clip.frame_time = frame;
-}
-
-std::string free_name(const std::string& name, std::size_t index, std::set<std::string>& taken) {
-  const std::string wanted = name.empty() ? "animation_" + std::to_string(index) : name;
-  std::string free = wanted;
-  for (int i = 2; !taken.insert(free).second; ++i) {
-    free = wanted;
-    free += '_' + std::to_string(i);
-  }
-  return free;
-}
-
-Clip clip_of(const CheckedGltf& gltf, const GltfBindPose& bind, std::size_t animation,
-             double rate) {
-  const GltfNodeMotion nodes = gltf_node_motion(gltf, animation);
-  Clip clip;
-  clip.motion = joint_motion(bind, gltf.tree, nodes, rate);
-  if (!nodes.times.empty()) clip.duration = nodes.times.back() - nodes.times.front();
-  count_frames(nodes.times, clip);
-  return clip;
-}
-
-std::vector<Clip> clips_of(const CheckedGltf& gltf, const GltfBindPose& bind, double rate) {
-  const auto& animations = gltf.document.animations;
-  std::vector<Clip> clips;
-  std::set<std::string> taken;
-  for (std::size_t i = 0; i < animations.size(); ++i) {
-    try {
-      clips.push_back(clip_of(gltf, bind, i, rate));
-    } catch (const Error& error) {
-      throw error.with_context(
-          {"animation " + std::to_string(i) + ' ' + shown(animations[i].name)});
-    }
-    clips.back().name = free_name(animations[i].name, i, taken);
-  }
-  return clips;
-}
-
-/// Four joints and four weights for each vertex of a primitive.
-struct Set {
-  std::vector<double> joints, weights;
-};
-
-void check_set(const Set& set, std::size_t joints, const std::string& user) {
-  for (const double joint : set.joints)
-    if (joint >= static_cast<double>(joints))
-      throw damaged_gltf(user + " names joint " + std::to_string(static_cast<int>(joint)) + " of " +
-                         std::to_string(joints));
-  for (const double weight : set.weights)
-    if (weight < 0) throw damaged_gltf(user + " has the weight " + std::to_string(weight));
-}
-
-std::vector<Set> sets_of(const CheckedGltf& gltf, const GltfPrimitive& primitive,
-                         std::size_t joints, const std::string& user) {
-  std::vector<Set> sets;
-  for (int i = 0; i < max_sets; ++i) {
-    const auto found = primitive.attributes.find("JOINTS_" + std::to_string(i));
-    if (found == primitive.attributes.end()) break;
-    const int weights = primitive.attributes.at("WEIGHTS_" + std::to_string(i));
-    sets.push_back({gltf_values(gltf, found->second, user + "'s joints"),
-                    gltf_values(gltf, weights, user + "'s weights")});
-    check_set(sets.back(), joints, user);
-  }
-  if (sets.empty())
-    throw bad_input(user + " has a skin but no weights", "bind all of it to the skeleton");
-  return sets;
-}
-
-/// Initialized to 0 where it is new.
-double& weight_of(int bone, std::vector<BoneWeight>& weights) {
-  for (BoneWeight& weight : weights)
-    if (weight.bone == bone) return weight.weight;
-  weights.push_back({bone, 0});
-  return weights.back().weight;
-}
-
-/// Each bone once, normalized.
-std::vector<BoneWeight> weights_of(const std::vector<Set>& sets, const std::vector<int>& places,
-                                   std::size_t vertex) {
-  std::vector<BoneWeight> weights;
-  double sum = 0;
-  for (const Set& set : sets)
-    for (std::size_t i = 4 * vertex; i < 4 * vertex + 4; ++i) {
-      if (set.weights[i] == 0) continue;
-      const int bone = places[static_cast<std::size_t>(set.joints[i])];
-      weight_of(bone, weights) += set.weights[i];
-      sum += set.weights[i];
-    }
-  for (BoneWeight& weight : weights) weight.weight /= sum;
-  std::stable_sort(weights.begin(), weights.end(), [](const BoneWeight& a, const BoneWeight& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.bone < b.bone;
-  });
-  return weights;
 }
 
 bool same_primitive(const GltfVertex& a, const GltfVertex& b) {
@@ -184,31 +82,36 @@ bool same_primitive(const GltfVertex& a, const GltfVertex& b) {
 BoneWeights skin_weights(const CheckedGltf& gltf, const GltfBindPose& bind,
                          const std::vector<GltfVertex>& vertices) {
   BoneWeights all{{0}, {}};
-  std::vector<Set> sets;
+  std::optional<GltfWeights> sets;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const GltfNode& node = gltf.document.nodes[static_cast<std::size_t>(vertices[i].node)];
+    const GltfNode& node = node_of(gltf.document, vertices[i].node);
     const auto mesh = static_cast<std::size_t>(node.mesh),
                skin = static_cast<std::size_t>(node.skin);
-    const auto primitive = static_cast<std::size_t>(vertices[i].primitive);
-    if (i == 0 || !same_primitive(vertices[i - 1], vertices[i]))
-      sets = sets_of(gltf, gltf.document.meshes[mesh].primitives[primitive],
-                     gltf.document.skins[skin].joints.size(),
-                     "mesh " + std::to_string(mesh) + ' ' + shown(gltf.document.meshes[mesh].name));
-    const auto weights =
-        weights_of(sets, bind.places[skin], static_cast<std::size_t>(vertices[i].vertex));
+    std::vector<BoneWeight> weights;
+    if (node.skin < 0) {
+      weights = {{bind.holders[static_cast<std::size_t>(vertices[i].node)], 1}};
+    } else {
+      if (i == 0 || !same_primitive(vertices[i - 1], vertices[i]))
+        sets.emplace(gltf, mesh, static_cast<std::size_t>(vertices[i].primitive),
+                     gltf.document.skins[skin].joints.size());
+      weights = sets->of(static_cast<std::size_t>(vertices[i].vertex), bind.places[skin]);
+    }
     all.weights.insert(all.weights.end(), weights.begin(), weights.end());
     all.first.push_back(static_cast<std::uint32_t>(all.weights.size()));
   }
   return all;
 }
 
-std::vector<GltfShape> skinned_shapes(const CheckedGltf& gltf, const GltfBindPose& bind) {
-  std::vector<GltfShape> shapes;
-  for (const int index : gltf.shown) {
-    const GltfNode& node = gltf.document.nodes[static_cast<std::size_t>(index)];
-    if (node.mesh >= 0 && node.skin >= 0)
-      shapes.push_back({index, bind.meshes[static_cast<std::size_t>(node.skin)]});
-  }
+/// Shapes that follow bones.
+std::vector<GltfShape> bound_shapes(const CheckedGltf& gltf, const GltfBindPose& bind,
+                                    std::vector<std::string>& warnings) {
+  std::vector<GltfShape> shapes = gltf_shapes(gltf, bind);
+  const std::size_t loose = std::erase_if(shapes, [&](const GltfShape& shape) {
+    return node_of(gltf.document, shape.node).skin < 0 && shape.joint < 0;
+  });
+  if (loose > 0)
+    warnings.push_back(std::to_string(loose) + (loose == 1 ? " mesh has" : " meshes have") +
+                       " neither skin nor joint above, and follow the nearest bones");
   return shapes;
 }
 
@@ -222,41 +125,67 @@ void warn_of_weightless(SkinnedRig& rig) {
 }
 
 SkinnedRig rig_in(const CheckedGltf& gltf, const GltfRigOptions& options) {
-  if (gltf.document.skins.empty())
-    throw bad_input("it has no skin", "export it with its armature and skinning");
-  check_size(gltf.document);
+  if (!has_bones(gltf))
+    throw bad_input("it has no skin and no animated nodes",
+                    "export it with its armature and skinning");
   const GltfBindPose bind = gltf_bind_pose(gltf);
   SkinnedRig rig;
-  rig.rig.skeleton = skeleton_in(gltf.document, bind);
-  rig.rig.clips = clips_of(gltf, bind, options.samples_per_second);
-  GltfTriangles triangles = gltf_triangles(gltf, skinned_shapes(gltf, bind));
+  if (!bind.warning.empty()) rig.rig.warnings.push_back(bind.warning);
+  const std::vector<GltfShape> shapes = bound_shapes(gltf, bind, rig.rig.warnings);
+  GltfTriangles triangles = gltf_triangles(gltf, shapes);
+  rig.rig.skeleton = skeleton_in(gltf.document, bind, ends_of_rigid(bind, shapes, triangles));
+  rig.rig.clips = gltf_clips(gltf, bind, options.samples_per_second);
   rig.weights = skin_weights(gltf, bind, triangles.sources);
   rig.mesh = std::move(triangles.soup);
   warn_of_weightless(rig);
   return rig;
 }
 
-}  // namespace
-
-SkinnedRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& options) {
+/// Runs with the path in errors.
+template <class Make>
+auto of_file(const std::filesystem::path& path, const Make& make) {
   try {
-    const CheckedGltf gltf = checked_gltf(path);
-    try {
-      SkinnedRig rig = rig_in(gltf, options);
-      for (std::string& warning : rig.rig.warnings)
-        warning.insert(0, Place{path.string()}.text() + ": ");
-      return rig;
-    } catch (const Error& error) {
-      throw error.with_context({path.string()});
-    }
+    return make();
+  } catch (const Error& error) {
+    throw error.with_context({path.string()});
   } catch (const std::bad_alloc&) {
     throw bad_input({path.string()}, "it takes more memory than there is",
                     "reduce its number of triangles or keys");
   }
 }
 
-bool has_skin(const std::filesystem::path& path) {
-  return !checked_gltf(path).document.skins.empty();
+CheckedGltf animated_gltf(const std::filesystem::path& path) {
+  CheckedGltf gltf = checked_gltf(path);
+  join_unnamed(gltf);
+  return gltf;
 }
+
+void name_file(const std::filesystem::path& path, std::vector<std::string>& warnings) {
+  for (std::string& warning : warnings) warning.insert(0, Place{path.string()}.text() + ": ");
+}
+
+}  // namespace
+
+SkinnedRig read_gltf_rig(const std::filesystem::path& path, const GltfRigOptions& options) {
+  const CheckedGltf gltf = animated_gltf(path);
+  SkinnedRig rig = of_file(path, [&] { return rig_in(gltf, options); });
+  name_file(path, rig.rig.warnings);
+  return rig;
+}
+
+Rig read_gltf_clips(const std::filesystem::path& skeleton, const std::filesystem::path& clips,
+                    const GltfRigOptions& options) {
+  const CheckedGltf gltf = checked_gltf(skeleton), from = animated_gltf(clips);
+  const GltfBindPose bind = of_file(skeleton, [&] { return gltf_bind_pose(gltf); });
+  Rig rig;
+  rig.skeleton = read_gltf_rig(skeleton, options).rig.skeleton;
+  rig.clips = of_file(clips, [&] {
+    return gltf_clips_from(from, gltf, bind, options.samples_per_second, rig.warnings);
+  });
+  name_file(clips, rig.warnings);
+  return rig;
+}
+
+bool has_gltf_rig(const std::filesystem::path& path) { return has_bones(checked_gltf(path)); }
 
 }  // namespace sinew

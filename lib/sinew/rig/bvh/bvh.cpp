@@ -12,6 +12,8 @@ namespace sinew {
 namespace {
 
 constexpr std::string_view first_word = "HIERARCHY";
+// Rigs of films have a few thousand joints, ropes and tails some hundred in a chain. Each joint
+// multiplies its parent's transformation, in each frame; beyond these a file is damaged or hostile.
 constexpr std::size_t max_joints = 10'000;
 constexpr std::size_t deepest = 200;
 
@@ -164,6 +166,7 @@ class Hierarchy {
   std::vector<Open> open_;
 };
 
+// Room for as many keys as a rig takes (rig.cpp), of twelve characters each.
 constexpr std::uint64_t max_bytes = 256 << 20, enough_for_its_first_word = 4096;
 constexpr double shortest_frame = 1e-9, longest_frame = 1e6;  // s
 

@@ -10,8 +10,8 @@
 namespace sinew {
 namespace {
 
-constexpr double max_keys = 20e6;  // about 1 GB
-constexpr double largest_scale = 1e9;
+constexpr double max_keys = 20e6;      // about 1 GB
+constexpr double largest_scale = 1e9;  // m: a slip rather than a unit; the Earth has 1.3e7 m
 // In key intervals; a key may be this much after the last frame: files write 1/30 s as 0.033333,
 // and a rate of 30 must not lose the last frame of a thousand.
 constexpr double slack = 0.05;

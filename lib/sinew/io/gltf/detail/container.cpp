@@ -118,6 +118,7 @@ std::string bytes_of(const GltfBuffer& buffer, const std::optional<std::string>&
   if (buffer.uri && buffer.uri->starts_with(data))
     return decoded(std::string_view(*buffer.uri).substr(data.size()), size);
   if (buffer.uri) return file_bytes(*buffer.uri, size, folder);
+  if (buffer.size == 0) return {};
   if (!binary) throw bad_input("a buffer has no data", "export it again, without mesh compression");
   if (binary->size() < size) throw too_short(buffer.size, binary->size());
   return binary->substr(0, size);
@@ -156,8 +157,8 @@ std::string read_gltf_file(const fs::path& path) {
 
 GltfContainer gltf_container(std::string file, const std::filesystem::path& extension) {
   const std::string kind = lower(extension.string());
-  if (kind != ".gltf" && kind != ".glb")
-    throw bad_input("its extension is " + shown(kind), "give a .gltf or .glb file");
+  if (kind != ".gltf" && kind != ".glb" && kind != ".vrm")
+    throw bad_input("its extension is " + shown(kind), "give a .gltf, .glb or .vrm file");
   if (file.empty()) throw damaged_gltf("it is empty");
   const bool binary = file.starts_with(glb_magic);
   if (binary && kind == ".gltf") throw bad_input("it is a binary glTF", "rename it to .glb");
@@ -169,8 +170,10 @@ GltfContainer gltf_container(std::string file, const std::filesystem::path& exte
   throw damaged_gltf("it does not begin as a binary glTF does");
 }
 
-std::vector<char> gltf_bytes(const std::vector<GltfBuffer>& buffers,
+std::vector<char> gltf_bytes(std::vector<GltfBuffer>& buffers,
                              const std::optional<std::string>& binary, const fs::path& folder) {
+  for (GltfBuffer& buffer : buffers)
+    if (buffer.fallback && !buffer.uri && !(binary && &buffer == &buffers.front())) buffer.size = 0;
   std::int64_t total = 0;
   for (const GltfBuffer& buffer : buffers)
     total = std::min(total + buffer.size, max_gltf_bytes + 1);

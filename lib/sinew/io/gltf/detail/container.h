@@ -24,7 +24,7 @@ struct GltfContainer {
 /// header says.
 std::string read_gltf_file(const std::filesystem::path& path);
 
-/// The content of a file of that extension (".gltf", ".glb", in any case). Throws bad input
+/// The content of a file of that extension (".gltf", ".glb", ".vrm", in any case). Throws bad input
 /// (without the path) where it is neither, is truncated, or has the other's extension.
 GltfContainer gltf_container(std::string file, const std::filesystem::path& extension);
 
@@ -34,8 +34,9 @@ std::filesystem::path gltf_file_of(const std::string& uri, const std::filesystem
 
 /// All buffers concatenated, each of its declared length. `binary` is the GLB's chunk, `folder`
 /// that of the glTF file: buffers in files must lie there or below. Throws bad input (without the
-/// path) for buffers that are missing, too short, or too long in total.
-std::vector<char> gltf_bytes(const std::vector<GltfBuffer>& buffers,
+/// path) for buffers that are missing (of fallbacks without data the length becomes 0), too short,
+/// or too long in total.
+std::vector<char> gltf_bytes(std::vector<GltfBuffer>& buffers,
                              const std::optional<std::string>& binary,
                              const std::filesystem::path& folder);
 

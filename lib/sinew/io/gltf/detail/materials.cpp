@@ -8,6 +8,7 @@
 #include <sinew/core/base64.h>
 #include <sinew/core/file.h>
 #include <sinew/core/json.h>
+#include <sinew/io/gltf/converted.h>
 #include <sinew/io/gltf/detail/container.h>
 
 namespace sinew {
@@ -129,7 +130,8 @@ int add_material(GltfMaterials& materials, const SurfaceLook::Material& material
 }
 
 GltfMaterials gltf_materials(const std::filesystem::path& path, const CheckedGltf& gltf) {
-  const GltfContainer container = gltf_container(read_gltf_file(path), path.extension());
+  const std::filesystem::path source = gltf_of(path);
+  const GltfContainer container = gltf_container(read_gltf_file(source), source.extension());
   const OrderedJson file = parsed_json<OrderedJson>(container.json);
   if (!file.is_object() || !file.contains("materials") || !file["materials"].is_array() ||
       file["materials"].empty())
@@ -141,7 +143,7 @@ GltfMaterials gltf_materials(const std::filesystem::path& path, const CheckedGlt
     if (OrderedJson kept = extensions_of_looks(file["extensionsUsed"]); !kept.empty())
       json["extensionsUsed"] = std::move(kept);
   GltfMaterials materials;
-  take_images(json, path.parent_path(), gltf, materials.images);
+  take_images(json, source.parent_path(), gltf, materials.images);
   materials.json = json_text(json);
   return materials;
 }

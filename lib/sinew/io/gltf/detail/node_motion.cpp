@@ -16,7 +16,7 @@ std::vector<double> times_of(const CheckedGltf& gltf, const GltfSampler& sampler
   if (times.front() < 0)
     throw damaged_gltf(user + " begins at the time " + std::to_string(times.front()));
   for (std::size_t i = 1; i < times.size(); ++i)
-    if (!(times[i] > times[i - 1]))
+    if (times[i] < times[i - 1])
       throw damaged_gltf(user + "'s times do not ascend: " + std::to_string(times[i]) + " after " +
                          std::to_string(times[i - 1]));
   return times;
@@ -34,6 +34,29 @@ Interpolation interpolation_of(const GltfSampler& sampler) {
   return Interpolation::linear;
 }
 
+/// The last one of keys at one time, and the first one a little before it: a jump.
+template <class Curve>
+Curve with_parted_times(const Curve& curve) {
+  constexpr double jump = 1e-4;  // fraction of the time since the key before
+  const auto& times = curve.times;
+  Curve parted;
+  parted.interpolation = curve.interpolation;
+  const auto add = [&](std::size_t i, double time) {
+    parted.times.push_back(time);
+    parted.values.push_back(curve.values[i]);
+    if (!curve.in.empty()) parted.in.push_back(curve.in[i]);
+    if (!curve.out.empty()) parted.out.push_back(curve.out[i]);
+  };
+  for (std::size_t first = 0, last = 0; first < times.size(); first = last + 1) {
+    for (last = first; last + 1 < times.size() && times[last + 1] == times[first];) ++last;
+    if (first > 0 && first < last && curve.interpolation != Interpolation::step &&
+        curve.values[first] != curve.values[last])
+      add(first, times[first] - jump * (times[first] - times[first - 1]));
+    add(last, times[last]);
+  }
+  return parted;
+}
+
 /// Distributes the file's values over a curve: one per key, or in-tangent, value and out-tangent.
 template <class Curve, class Make>
 Curve curve_of(const CheckedGltf& gltf, const GltfSampler& sampler, const std::string& user,
@@ -49,7 +72,7 @@ Curve curve_of(const CheckedGltf& gltf, const GltfSampler& sampler, const std::s
     curve.values.push_back(make(cubic ? first + parts : first));
     if (cubic) curve.out.push_back(make(first + 2 * parts));
   }
-  return curve;
+  return with_parted_times(curve);
 }
 
 Curve<Vec3> vectors(const CheckedGltf& gltf, const GltfSampler& sampler, const std::string& user) {

@@ -28,10 +28,10 @@ struct GltfNodeMotion {
   Affine at(int node, double time) const;
 };
 
-/// Keys are the file's; channels of constant value are moved into `places`. Scales that change by
-/// less than a relative 1e-5 count as constant: rounding of exporters. Throws bad input (without
-/// the path) for times that are negative or do not ascend, numbers that are not finite and
-/// rotations of length 0.
+/// Keys are the file's (two at one time are a jump); channels of constant value are moved into
+/// `places`. Scales that change by less than a relative 1e-5 count as constant: rounding of
+/// exporters. Throws bad input (without the path) for times that are negative or do not ascend,
+/// numbers that are not finite and rotations of length 0.
 GltfNodeMotion gltf_node_motion(const CheckedGltf& gltf, std::size_t animation);
 
 }  // namespace sinew

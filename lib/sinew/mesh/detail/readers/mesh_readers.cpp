@@ -80,4 +80,15 @@ void refuse_too_many_points(const MeshFile& file, std::size_t points) {
                     "reduce the number of triangles");
 }
 
+void tell_of_left_out(const MeshFile& file, std::size_t faces, PolygonSoup& soup) {
+  if (faces == 0) return;
+  const std::string told = std::to_string(faces) + (faces == 1 ? " face has" : " faces have") +
+                           " fewer than three corners";
+  if (!soup.warning.empty())  // counts that are wrong make such faces of other rows
+    throw file.broken(0, told + ", and " + soup.warning, "export the mesh again");
+  if (soup.polygons.empty())
+    throw file.broken(0, "there are no faces but " + told, "export the mesh again with its faces");
+  soup.warning = told + ": left out";
+}
+
 }  // namespace sinew

@@ -32,8 +32,8 @@ void check_mesh_file(const std::string& path);
 MeshFile open_mesh(const std::string& path);
 
 // All throw Error (bad input) naming the file, the line if any, the fault and the cure. Every count
-// in a file is checked against its length. The result has faces of three corners or more, corners
-// that exist and finite coordinates.
+// in a file is checked against its length. The result has faces of three corners or more (those of
+// fewer are left out, with a warning), corners that exist and finite coordinates.
 
 /// Wavefront OBJ: `v` and `f` lines with indices of either sign, continued lines joined; with
 /// `look`, what else describes the surface.
@@ -59,6 +59,10 @@ PolygonSoup read_ply(const MeshFile& file);
 
 /// The next three words as coordinates.
 Vec3 next_point(Words& words, const MeshFile& file);
+
+/// Tells of so many faces of fewer than three corners that were left out; refuses where none is
+/// left, or something else is wrong.
+void tell_of_left_out(const MeshFile& file, std::size_t faces, PolygonSoup& soup);
 
 /// Refuses more points than an int can index.
 void refuse_too_many_points(const MeshFile& file, std::size_t points);

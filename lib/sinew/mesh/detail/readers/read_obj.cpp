@@ -67,6 +67,7 @@ class ObjReader {
       read(file_.content);
     else
       read_joined(joined(file_.content));
+    tell_of_left_out(file_, left_out_, soup_);
     if (soup_.points.empty() || soup_.polygons.empty())
       throw file_.broken(0, soup_.points.empty() ? "there are no vertices" : "there are no faces",
                          "export the mesh again as OBJ with its faces");
@@ -152,11 +153,16 @@ class ObjReader {
       look_->corners.back().push_back(index_in(word, 1, look_->look.coordinates.size()));
       look_->normal_corners.back().push_back(index_in(word, 2, look_->look.normals.size()));
     }
-    if (corners_.size() < 3)
-      throw file_.broken(words.line(),
-                         "the face has " + std::to_string(corners_.size()) + " corners",
-                         "a face needs 3 or more; export the mesh again");
+    if (corners_.size() < 3) return leave_out();
     soup_.polygons.emplace_back(corners_.begin(), corners_.end());
+  }
+
+  void leave_out() {
+    ++left_out_;
+    if (!look_) return;
+    look_->look.part.pop_back();
+    look_->corners.pop_back();
+    look_->normal_corners.pop_back();
   }
 
   /// The vertex of "7", "7/1", "7//3", "7/1/3" or "-2" (the last but one so far), from 1. Whether
@@ -188,6 +194,7 @@ class ObjReader {
   PolygonLook* look_;
   PolygonSoup soup_;
   std::vector<int> corners_;
+  std::size_t left_out_ = 0;  // faces
   std::int64_t largest_ = 0;
   int largest_line_ = 0;
   bool has_free_form_ = false;

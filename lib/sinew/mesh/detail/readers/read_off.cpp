@@ -25,6 +25,7 @@ class OffReader {
   PolygonSoup soup() {
     const auto [vertices, faces] = counts();
     const auto bytes = static_cast<std::int64_t>(file_.content.size());
+    std::size_t left_out = 0;
     PolygonSoup soup;  // a vertex takes 6 bytes or more, a face 8
     soup.points.reserve(std::min(vertices, bytes / 6));
     soup.polygons.reserve(std::min(faces, bytes / 8));
@@ -36,10 +37,15 @@ class OffReader {
     }
     refuse_too_many_points(file_, soup.points.size());
     for (std::int64_t i = 0; i < faces; ++i) {
-      soup.polygons.push_back(face(vertices));
+      std::vector<int> polygon = face(vertices);
+      if (polygon.size() < 3)
+        ++left_out;
+      else
+        soup.polygons.push_back(std::move(polygon));
       end_row();
     }
     soup.warning = unread();
+    tell_of_left_out(file_, left_out, soup);
     return soup;
   }
 
@@ -101,9 +107,9 @@ class OffReader {
     const std::string_view count = words.next();
     if (count.empty()) throw ends_early(words.line());
     const auto corners = integer_in(count);
-    if (!corners || *corners < 3)
+    if (!corners || *corners < 1)
       throw file_.broken(words.line(), "the face has " + shown(count) + " corners",
-                         "a face needs 3 or more; export the mesh again");
+                         "export the mesh again");
     std::vector<int> polygon;
     polygon.reserve(std::min<std::int64_t>(*corners, 4));
     for (std::int64_t i = 0; i < *corners; ++i) polygon.push_back(corner(words, vertices));

@@ -24,6 +24,8 @@ class TextBody {
         before_(header.lines),
         by_lines_(by_lines) {}
 
+  const MeshFile& file() const { return file_; }
+
   void begin_element() {
     if (!by_lines_) return;
     longer_ += !words_.next().empty();
@@ -97,6 +99,8 @@ class BinaryBody {
   }
 
   void skip(const PlyType& type) { take(type); }
+  const MeshFile& file() const { return file_; }
+
   void begin_element() {}
   std::string warning() { return {}; }
 
@@ -145,6 +149,7 @@ class BodyReader {
         for (const PlyProperty& property : element.properties) read(element, property);
       }
     soup_.warning = body_.warning();
+    tell_of_left_out(body_.file(), left_out_, soup_);
     return std::move(soup_);
   }
 
@@ -163,10 +168,13 @@ class BodyReader {
   }
 
   void face(const PlyType& type, std::int64_t count) {
-    if (count < 3) throw body_.broken("a face has " + std::to_string(count) + " corners");
+    if (count == 0) throw body_.broken("a face has 0 corners");
     corners_.clear();
     for (std::int64_t i = 0; i < count; ++i) corners_.push_back(corner(body_.integer(type)));
-    soup_.polygons.emplace_back(corners_.begin(), corners_.end());
+    if (count < 3)
+      ++left_out_;
+    else
+      soup_.polygons.emplace_back(corners_.begin(), corners_.end());
   }
 
   /// Triangle strips with -1 between them; every second triangle is turned the other way.
@@ -197,6 +205,7 @@ class BodyReader {
   Body body_;
   PolygonSoup soup_;
   std::vector<int> corners_;
+  std::size_t left_out_ = 0;  // faces
   std::int64_t vertices_ = 0;
 };
 

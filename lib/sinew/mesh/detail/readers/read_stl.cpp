@@ -37,6 +37,22 @@ PolygonSoup soup_of(const MeshFile& file, Points points) {
   return soup;
 }
 
+/// Whether the file ends where its attributes do, if the two bytes behind each triangle count those
+/// that follow them. Most programs put colors there.
+bool has_attributes(std::string_view content, std::size_t triangles) {
+  std::size_t at = start;
+  for (std::size_t i = 0; i < triangles; ++i) {
+    if (content.size() - at < triangle_bytes) return false;
+    std::uint16_t attributes;
+    std::memcpy(&attributes, content.data() + at + triangle_bytes - sizeof attributes,
+                sizeof attributes);
+    at += triangle_bytes;
+    if (content.size() - at < attributes) return false;
+    at += attributes;
+  }
+  return at == content.size() && at > start + triangles * triangle_bytes;
+}
+
 PolygonSoup read_binary(const MeshFile& file) {
   const std::size_t triangles = stated_triangles(file.content);
   const std::size_t contained = (file.content.size() - start) / triangle_bytes;
@@ -45,6 +61,12 @@ PolygonSoup read_binary(const MeshFile& file) {
                       "the file says " + std::to_string(triangles) + " triangles but holds " +
                           std::to_string(contained),
                       "it is cut short or no STL: export the mesh again");
+  if (has_attributes(file.content, triangles))
+    throw file.broken(0,
+                      "its triangles have " +
+                          std::to_string(file.content.size() - start - triangles * triangle_bytes) +
+                          " bytes of attributes between them, which are not read",
+                      "export the mesh without attributes");
   Points points;
   points.reserve(3 * triangles);
   for (std::size_t i = 0; i < triangles; ++i) {
@@ -72,12 +94,15 @@ class StlText {
     if (lower(words_.next()) != "solid")
       throw file_.broken(0, "this is neither text nor binary STL", "export the mesh again");
     bool closed = false;
+    std::string before;
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
-      const std::string keyword = lower(word);
+      std::string keyword = lower(word);
       if (keyword == "facet") facet();
-      // Several solids may follow each other, with names between the keywords.
-      if (keyword == "facet" || keyword == "solid") closed = false;
+      // Several solids may follow each other, with names between the keywords; some end in
+      // "end solid".
+      if (keyword == "facet" || keyword == "solid") closed = before == "end";
       if (keyword == "endsolid") closed = true;
+      before = std::move(keyword);
     }
     if (!closed) throw cut_short();
     return soup_of(file_, std::move(points_));
