@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include <sinew/core/file.h>
 #include <sinew/core/system.h>
 
 namespace sinew {
@@ -108,10 +109,14 @@ void pass_signals_on() {
 }
 
 [[noreturn]] void become(const std::string& program, const std::vector<char*>& arguments,
-                         int output, pid_t parent) {
+                         int output, const std::string& errors, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(1);  // the parent ended before it could be watched
   ::dup2(output, STDOUT_FILENO);
+  if (!errors.empty()) {
+    ::setpgid(0, 0);  // signals of the terminal go to the parent, which ends it
+    ::dup2(create_file(errors), STDERR_FILENO);
+  }
   ::execv(program.c_str(), arguments.data());
   ::_exit(127);
 }
@@ -144,7 +149,8 @@ struct Child {
   int output = -1;  ///< to be read
 };
 
-Child start_child(const std::string& command, const std::vector<std::string>& arguments) {
+Child start_child(const std::string& command, const std::vector<std::string>& arguments,
+                  const std::string& errors = "") {
   const auto folder = this_program().parent_path();
   std::string program = (folder / ("sinew-" + command)).string();
   const Error cannot_start =
@@ -159,7 +165,7 @@ Child start_child(const std::string& command, const std::vector<std::string>& ar
   const pid_t parent = ::getpid();
   hold_stop_signals();  // the child is ready for them later
   const pid_t child = ::fork();
-  if (child == 0) become(program, words, pipe[1], parent);
+  if (child == 0) become(program, words, pipe[1], errors, parent);
   change_mask(SIG_UNBLOCK);
   ::close(pipe[1]);
   if (child < 0) throw cannot_start;
@@ -193,8 +199,9 @@ ChildEnd run_child(const std::string& command, const std::vector<std::string>& a
   return end;
 }
 
-Helper::Helper(const std::string& command, const std::vector<std::string>& arguments) {
-  const Child child = start_child(command, arguments);
+Helper::Helper(const std::string& command, const std::vector<std::string>& arguments,
+               const std::string& errors) {
+  const Child child = start_child(command, arguments, errors);
   process_ = child.process;
   output_ = child.output;
 }
@@ -214,6 +221,19 @@ bool Helper::read(std::span<std::uint8_t> bytes) {
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
   return true;
+}
+
+std::optional<ChildEnd> Helper::ended() {
+  int status = 0;
+  if (::waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
+  process_ = 0;
+  ChildEnd end{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_all(output_)};
+  ::close(output_);
+  return end;
+}
+
+void Helper::end(int signal) {
+  if (process_ != 0) ::kill(process_, signal);
 }
 
 void Helper::yield() { ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), 5); }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,14 +58,20 @@ ChildEnd run_child(const std::string& command, const std::vector<std::string>& a
 /// Another program of sinew at work beside this one, until this object ends.
 class Helper {
  public:
-  /// Throws bad input where it cannot be started.
-  Helper(const std::string& command, const std::vector<std::string>& arguments);
+  /// `errors`: file for what it says on standard error; "": this program's. Throws bad input where
+  /// it cannot be started.
+  Helper(const std::string& command, const std::vector<std::string>& arguments,
+         const std::string& errors = "");
   ~Helper();
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
   /// The next bytes of its standard output; false where it ended before.
   bool read(std::span<std::uint8_t> bytes);
+
+  /// Its end, if it has come. What it prints is kept until then: a few kilobytes at most.
+  std::optional<ChildEnd> ended();
+  void end(int signal);
 
   /// It takes the time that other programs leave.
   void yield();

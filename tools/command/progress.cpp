@@ -13,6 +13,8 @@ constexpr double worth_telling =
     0.05;  // fraction of the time that the simulation waits for writing
 constexpr auto between = std::chrono::seconds(10);  // time between lines that are not rewritten
 
+}  // namespace
+
 std::string duration_text(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::min(std::ceil(seconds), 1e9));
   const auto hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
@@ -20,15 +22,13 @@ std::string duration_text(double seconds) {
   return fmt::format("{}:{:02}", minutes, rest);
 }
 
-}  // namespace
-
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
                           double seconds_left, double fraction_waited) {
   std::string text = fmt::format("frame {}/{}  time {:.4g} s", frame, frames, time);
   if (steps_per_second > 0) text += fmt::format("  {:.0f} steps/s", steps_per_second);
   if (seconds_left > 0) text += fmt::format("  {} left", duration_text(seconds_left));
   if (fraction_waited > worth_telling)
-    text += fmt::format("  {:.0f} % spent waiting for the disk", 100 * fraction_waited);
+    text += fmt::format("  {:.0f} % spent waiting for frames to be written", 100 * fraction_waited);
   return text;
 }
 
@@ -40,10 +40,18 @@ std::string iterations_text(int frame, int frames, double time, std::int64_t ite
 
 void StageProgress::at(std::size_t done, std::size_t of) {
   constexpr auto until_rewritten = std::chrono::seconds(1);
+  constexpr auto at_once = std::chrono::milliseconds(100);
   const auto now = Clock::now();
-  if (done == 0 || now - start_ < until_rewritten) return;
-  const double seconds = std::chrono::duration<double>(now - start_).count();
-  const double left = seconds * static_cast<double>(of - done) / static_cast<double>(done);
+  if (done == 0) return;
+  if (!first_) first_ = now;
+  if (now - *first_ < at_once) {
+    counted_from_ = now, done_before_ = done;
+    return;
+  }
+  if (now - start_ < until_rewritten) return;
+  const double seconds = std::chrono::duration<double>(now - counted_from_).count();
+  const double left = seconds * static_cast<double>(of - done) /
+                      static_cast<double>(std::max<std::size_t>(1, done - done_before_));
   const std::string line =
       fmt::format("{} {} %{}", stage_, 100 * done / of,
                   done < of ? "  " + duration_text(left) + " left" : std::string());
@@ -88,14 +96,15 @@ void Progress::frame(int frame, double time, std::int64_t steps, double waited) 
     start_ = now;
     first_frame_ = frame;
     first_steps_ = steps;
+    first_waited_ = waited;
     tenths_ = frames_ > 0 ? frame * 10 / frames_ : 0;
     return;
   }
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double speed = seconds > 0 ? static_cast<double>(steps - first_steps_) / seconds : 0;
   const double left = seconds * (frames_ - frame) / std::max(1, frame - first_frame_);
-  const std::string line =
-      progress_text(frame, frames_, time, speed, left, seconds > 0 ? waited / seconds : 0);
+  const double in_vain = std::min(1.0, (waited - first_waited_) / std::max(seconds, 1e-9));
+  const std::string line = progress_text(frame, frames_, time, speed, left, in_vain);
   const int tenths = frames_ > 0 ? static_cast<int>(std::int64_t{frame} * 10 / frames_) : 0;
   if (line_.style() == ProgressStyle::rewritten)
     line_.rewrite(line, frame >= frames_);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -18,8 +19,11 @@
 
 namespace sinew {
 
-/// "frame 30/90  time 1 s  1234 steps/s  0:52 left  31 % spent waiting for the disk"; unknown parts
-/// (0, negative) and waits below a twentieth are left out.
+/// "1:02:03", "0:52".
+std::string duration_text(double seconds);
+
+/// "frame 30/90  time 1 s  1234 steps/s  0:52 left  31 % spent waiting for frames to be written";
+/// unknown parts (0, negative) and waits below a twentieth are left out.
 std::string progress_text(int frame, int frames, double time, double steps_per_second,
                           double seconds_left, double fraction_waited = 0);
 
@@ -43,6 +47,10 @@ class StageProgress {
   std::string stage_;
   ProgressLine line_;
   Clock::time_point start_ = Clock::now(), reported_ = start_;
+  // What was done before the first call, or told at once with it, says nothing of the speed.
+  std::optional<Clock::time_point> first_;
+  Clock::time_point counted_from_ = start_;
+  std::size_t done_before_ = 0;
 };
 
 /// A stage whose end cannot be foretold, while this lives: "looking at the mesh  3 s". Appears as
@@ -85,6 +93,7 @@ class Progress {
   Clock::time_point start_;
   int first_frame_ = 0;
   std::int64_t first_steps_ = 0;
+  double first_waited_ = 0;
   int tenths_ = 0;
   Clock::time_point reported_ = Clock::now();
 };

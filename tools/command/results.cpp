@@ -39,6 +39,17 @@ std::string plain(const Json& value, bool briefly) {
   return '[' + list + ']';
 }
 
+/// A value with its unit, which has a prefix where the number would have an exponent.
+std::string with_unit(const Json& value, const std::string& unit, bool briefly) {
+  std::string text = plain(value, briefly);
+  if (unit.empty()) return text;
+  if (!briefly || !value.is_number_float() || text.find('e') == std::string::npos)
+    return text + ' ' + unit;
+  const auto number = value.get<double>();
+  const PrefixedUnit prefixed = prefixed_unit(number, unit);
+  return four_digits(number / prefixed.size) + ' ' + prefixed.unit;
+}
+
 /// JSON escapes control characters but for 0x7f and those of 0x80 to 0x9f.
 std::string without_terminal_controls(const std::string& json) {
   std::string text;
@@ -101,9 +112,7 @@ std::string Results::text(bool briefly) const {
   }
   for (const Entry& one : entries_)
     if (one.in != In::headlines && one.in != In::object)
-      text += printable(one.key + ": " + plain(one.value, briefly) +
-                        (one.unit.empty() ? "" : ' ' + one.unit)) +
-              '\n';
+      text += printable(one.key + ": " + with_unit(one.value, one.unit, briefly)) + '\n';
   return text;
 }
 
@@ -118,6 +127,10 @@ std::string Results::json() const {
 
 void Results::print(const Common& common) const {
   print_out(common.json ? json() : text(!common.verbose));
+}
+
+void print_warnings(const std::vector<std::string>& warnings, const Common& common) {
+  for (const std::string& warning : warnings) say(common, "sinew: warning: " + warning);
 }
 
 void print_error(std::string_view line, std::string_view colored) {

@@ -53,6 +53,9 @@ class Results {
 /// Writes to standard output and flushes it. Throws Error (not_written).
 void print_out(std::string_view text);
 
+/// Says a line for each warning.
+void print_warnings(const std::vector<std::string>& warnings, const Common& common);
+
 /// Writes a line to standard error, printable() but for its `colored` beginning.
 void print_error(std::string_view line, std::string_view colored = "");
 

@@ -62,6 +62,8 @@ void add_world(std::vector<Group>& all) {
   all.push_back(entries("world.fields[].keys[]", strength_fields()));
   all.push_back(entries("world.muscles[]", muscle_fields()));
   all.push_back(entries("world.muscles[].keys[]", activation_fields()));
+  all.push_back(entries("world.springs[]", spring_fields()));
+  all.push_back(entries("world.springs[].keys[]", spring_key_fields()));
 }
 
 void add_machine(std::vector<Group>& all) {

@@ -127,8 +127,10 @@ void add_snapshot(Side& side, std::size_t number, const FrameState& state) {
 
 /// What needs both runs at once: distances, added to the second one's metrics, and the playbacks.
 void hold_together(Side& first, Side& second, const std::vector<Pair>& pairs, const Alike& same) {
-  for (Side* side : {&first, &second})
+  for (Side* side : {&first, &second}) {
     side->playback = plan_playback(side->rest, pairs.size(), 0.5);
+    side->playback.ranges = side->measured.ranges;
+  }
   second.playback.wanted = first.playback.wanted;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FrameState one = read_frame(first.run, pairs[k][0]);

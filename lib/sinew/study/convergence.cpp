@@ -151,10 +151,25 @@ std::vector<double> largest_of_one_sign(std::span<const std::vector<double>> run
   return sum(high) + sum(low) < 0 ? low : high;
 }
 
-ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const double> values) {
-  const auto missing = [](double value) { return !std::isfinite(value); };
-  if (sizes.size() < 2 || std::any_of(values.begin(), values.end(), missing)) return {};
-  const std::vector<Sample> samples = ascending(sizes, values);
+namespace {
+
+/// Whether the values tell of this limit.
+bool approach(const std::vector<Sample>& samples, const ContinuumLimit& limit) {
+  constexpr double doubtful = 0.2, beyond_first_order = 2;
+  double largest = 0, low = samples.front().value, high = low;
+  for (const Sample& sample : samples) {
+    largest = std::max(largest, std::abs(sample.value));
+    low = std::min(low, sample.value), high = std::max(high, sample.value);
+  }
+  if (limit.error <= doubtful * largest || samples.size() == 2) return true;
+  const double finest = samples.front().size, coarsest = samples.back().size;
+  const double by_first_order = (high - low) * finest / (coarsest - finest);
+  return limit.error <= largest &&
+         std::abs(limit.value - samples.front().value) <= beyond_first_order * by_first_order;
+}
+
+/// The limit that the values have if they approach one.
+ContinuumLimit extrapolated(const std::vector<Sample>& samples) {
   const Sample* s = samples.data();
   const double finest = extrapolated(s, 1);
   if (samples.size() == 2) return {finest, std::abs(finest - s[0].value), not_measured};
@@ -179,6 +194,22 @@ ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const do
   if (limit.order >= 0.5 && limit.order <= 3)
     limit.error = std::max(limit.error, std::abs(value - extrapolated(s, limit.order)));
   return limit;
+}
+
+}  // namespace
+
+ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const double> values) {
+  const auto missing = [](double value) { return !std::isfinite(value); };
+  if (sizes.size() < 2 || std::any_of(values.begin(), values.end(), missing)) return {};
+  const std::vector<Sample> samples = ascending(sizes, values);
+  const ContinuumLimit limit = extrapolated(samples);
+  return approach(samples, limit) ? limit : ContinuumLimit{};
+}
+
+ContinuumLimit within(const ContinuumLimit& limit, const ValueRange& range) {
+  const double inside = std::clamp(limit.value, range.low, range.high);
+  if (!(std::abs(limit.value - inside) <= limit.error)) return {};
+  return {inside, limit.error, limit.order};
 }
 
 }  // namespace sinew

@@ -8,11 +8,13 @@
 #include <span>
 #include <vector>
 
+#include <sinew/core/value_range.h>
 #include <sinew/metrics/statistics.h>
 
 namespace sinew {
 
-/// Not-a-number throughout where a value is, or with fewer than two sizes.
+/// Not-a-number throughout where a value is, with fewer than two sizes, and where the values do not
+/// approach one.
 struct ContinuumLimit {
   double value = not_measured;  ///< at size 0
   double error = not_measured;  ///< error of it: an estimate, not a bound
@@ -34,7 +36,14 @@ struct ContinuumLimit {
 /// disagree. That of a parabola is at least the distance from the limit of the better term; of
 /// three sizes, from those of a line, of the line through the smaller two, and of the extrapolation
 /// by the order (Roache's, doi 10.1115/1.2910291) where it is between 1/2 and 3.
+///
+/// Values do not approach one where the error exceeds the largest of them; and where it exceeds a
+/// fifth of it, and the limit lies farther from the finest value than twice as far as a term of the
+/// first order takes what the values differ by.
 ContinuumLimit continuum_limit(std::span<const double> sizes, std::span<const double> values);
+
+/// The limit of a quantity that lies in a range: its end where the error reaches that, else none.
+ContinuumLimit within(const ContinuumLimit& limit, const ValueRange& range);
 
 /// The value of each run that is farthest to one side, with its sign: to the side on which the runs
 /// together go farther from zero, lest it jumps between extremes of almost the same size.

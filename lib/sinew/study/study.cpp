@@ -172,7 +172,8 @@ bool differ_by_radius(const Study& study) {
 void add_limits(Study& study) {
   std::vector<double> radii;
   for (const StudiedRun& run : study.runs) radii.push_back(run.radius);
-  for (StudiedResult& result : study.results) result.limit = continuum_limit(radii, result.values);
+  for (StudiedResult& result : study.results)
+    result.limit = within(continuum_limit(radii, result.values), range_of(result.name));
 }
 
 std::vector<std::string> remarks_on(const std::vector<Opened>& runs, std::size_t common) {
@@ -191,6 +192,10 @@ std::vector<std::string> remarks_on(const std::vector<Opened>& runs, std::size_t
 }
 
 }  // namespace
+
+bool StudiedResult::measured() const {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
 
 Study study_runs(const std::vector<fs::path>& folders, const MeasureOptions& how) {
   refuse_doubles(folders);

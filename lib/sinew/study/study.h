@@ -32,7 +32,9 @@ struct StudiedResult {
   std::string kind;  ///< "final" and "worst" over the frames, "largest" in size; "run" of all of it
   std::string unit;
   std::vector<double> values;  ///< one per run
-  ContinuumLimit limit;        ///< nothing unless Study::by_radius
+  ContinuumLimit limit;        ///< nothing unless Study::by_radius, and the values converge
+
+  bool measured() const;  ///< whether every run has a value
 };
 
 struct Study {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <sinew/core/csv.h>
 #include <sinew/core/file.h>
 #include <sinew/core/json.h>
 #include <sinew/core/text.h>
@@ -14,14 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr int schema_version = 1;
-
-/// Quoted where it has to be (RFC 4180).
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 std::string cell(double value) { return std::isnan(value) ? "nan" : number_text(value); }
 
@@ -37,10 +30,10 @@ Json numbers(const std::vector<double>& values) {
 
 std::string study_csv(const Study& study) {
   std::string text = "name,kind,unit";
-  for (const StudiedRun& run : study.runs) text += ',' + cell(run.name);
+  for (const StudiedRun& run : study.runs) text += ',' + quoted_cell(run.name);
   text += ",limit,error,order\n";
   for (const StudiedResult& result : study.results) {
-    text += cell(result.name) + ',' + result.kind + ',' + cell(result.unit);
+    text += quoted_cell(result.name) + ',' + result.kind + ',' + quoted_cell(result.unit);
     for (const double value : result.values) text += ',' + cell(value);
     for (const double value : {result.limit.value, result.limit.error, result.limit.order})
       text += ',' + cell(value);

@@ -25,6 +25,9 @@ std::string study_json(const Study& study);
 /// metric of all runs over time. The whole page, UTF-8.
 std::string study_html(const Study& study, const std::string& title);
 
+/// Adds the limit of a curve over the radius, with its error, at radius 0 and in the note.
+void add_limit(LawCurve& curve, const ContinuumLimit& limit);
+
 /// Writes the three files into `out`, which is created and titles the page. Throws not written.
 void write_study(const Study& study, const std::filesystem::path& out);
 

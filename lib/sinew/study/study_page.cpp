@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t max_curves = 30;  // number of curves over the radius
 // Fraction of its unit's largest result: less is zero but for rounding and sides of the packing.
 constexpr double telling = 1e-3;
+constexpr const char* of_limits =
+    "The line at radius 0 is the limit with its error: that of a parabola through the runs.";
 
 std::string header(const Study& study, const std::string& title) {
   const std::vector<FrameMetrics>& frames = study.runs.front().frames;
@@ -33,12 +35,6 @@ std::string header(const Study& study, const std::string& title) {
                  element("h1", escaped(title)) + element("p", escaped(line), "class=\"quiet\""));
 }
 
-std::string remarks(const Study& study) {
-  std::string items;
-  for (const std::string& remark : study.remarks) items += element("li", escaped(remark));
-  return items.empty() ? "" : element("ul", items, "class=\"remarks\"");
-}
-
 std::string runs_table(const Study& study) {
   std::string rows;
   for (const StudiedRun& run : study.runs)
@@ -50,7 +46,11 @@ std::string runs_table(const Study& study) {
 
 // Results over the radius.
 
-bool has_limit(const StudiedResult& result) { return std::isfinite(result.limit.value); }
+/// "2 ± 0.1", or that there is none.
+std::string limit_text(const ContinuumLimit& limit) {
+  return std::isfinite(limit.value) ? readable(limit.value) + " ± " + readable(limit.error)
+                                    : "does not converge";
+}
 
 double spread_of(const StudiedResult& result) {
   const auto [low, high] = std::minmax_element(result.values.begin(), result.values.end());
@@ -67,20 +67,14 @@ bool is_headline(const StudiedResult& result, bool machine) {
 }
 
 LawCurve curve_of(const Study& study, const StudiedResult& result) {
-  std::vector<std::pair<double, double>> points = {{0, result.limit.value}};
+  std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < study.runs.size(); ++i)
     points.emplace_back(study.runs[i].radius, result.values[i]);
   std::sort(points.begin(), points.end());
   LawCurve curve{result.name + ", " + result.kind, "", "radius (m)", result.unit, {}};
-  CurveLine runs{"runs", {}, {}}, limit{"limit", {0, 0, 0}, {}};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i > 0) runs.x.push_back(points[i].first), runs.y.push_back(points[i].second);
-  }
-  const ContinuumLimit& at = result.limit;
-  limit.y = {at.value - at.error, at.value, at.value + at.error};
-  curve.note = "Limit " + readable(at.value) + " ± " + readable(at.error) +
-               (std::isnan(at.order) ? "" : ", order " + fixed(at.order, 1));
-  curve.lines = {std::move(runs), std::move(limit)};
+  CurveLine& runs = curve.lines.emplace_back(CurveLine{"runs", {}, {}});
+  for (const auto& [radius, value] : points) runs.x.push_back(radius), runs.y.push_back(value);
+  add_limit(curve, result.limit);
   return curve;
 }
 
@@ -89,7 +83,7 @@ std::vector<LawCurve> curves_of(const Study& study) {
   std::map<std::string, double> largest;  // one per unit
   const auto size_of = [](const StudiedResult& result) { return std::abs(result.values.back()); };
   const auto drawn = [&](const StudiedResult& result) {
-    return has_limit(result) && is_headline(result, machine) && spread_of(result) > 0;
+    return result.measured() && is_headline(result, machine) && spread_of(result) > 0;
   };
   for (const StudiedResult& result : study.results)
     if (drawn(result)) largest[result.unit] = std::max(largest[result.unit], size_of(result));
@@ -101,16 +95,6 @@ std::vector<LawCurve> curves_of(const Study& study) {
   return curves;
 }
 
-std::string curves_section(const std::vector<LawCurve>& curves) {
-  if (curves.empty()) return "";
-  const std::string hint =
-      "The line at radius 0 is the limit with its error: that of a parabola through the runs.";
-  return element("section",
-                 element("h2", "Over the radius") + element("p", hint, "class=\"quiet hint\"") +
-                     element("div", "", "class=\"charts\" id=\"curves\""),
-                 "class=\"needs-script\"");
-}
-
 // All results.
 
 std::string result_row(const Study& study, const StudiedResult& result) {
@@ -118,11 +102,9 @@ std::string result_row(const Study& study, const StudiedResult& result) {
   for (std::size_t i = 0; i < study.runs.size(); ++i)
     cells.push_back({study.runs[i].name, readable(result.values[i])});
   if (study.by_radius) {
-    const ContinuumLimit& limit = result.limit;
-    cells.push_back({"limit", readable(limit.value) + (std::isfinite(limit.error)
-                                                           ? " ± " + readable(limit.error)
-                                                           : std::string())});
-    cells.push_back({"order", fixed(limit.order, 1)});
+    cells.push_back(
+        {"limit", result.measured() ? limit_text(result.limit) : readable(not_measured)});
+    cells.push_back({"order", fixed(result.limit.order, 1)});
   }
   const std::string unit =
       result.unit.empty() ? "" : element("span", escaped(result.unit), "class=\"unit\"");
@@ -192,14 +174,23 @@ PageData drawn_data(const Study& study) {
 
 }  // namespace
 
+void add_limit(LawCurve& curve, const ContinuumLimit& limit) {
+  if (!curve.note.empty()) curve.note += ". ";
+  curve.note += "Limit: " + limit_text(limit);
+  if (std::isfinite(limit.order)) curve.note += ", order " + fixed(limit.order, 1);
+  if (std::isfinite(limit.value))
+    curve.lines.push_back(
+        {"limit", {0, 0, 0}, {limit.value - limit.error, limit.value, limit.value + limit.error}});
+}
+
 std::string study_html(const Study& study, const std::string& title) {
   PageData data = drawn_data(study);
   const std::string settings = study.settings.empty() ? element("p", "No setting does.")
                                                       : fact_lists(facts_of(study.settings));
-  const std::string body = header(study, title) + remarks(study) + runs_table(study) +
+  const std::string body = header(study, title) + remarks(study.remarks) + runs_table(study) +
                            element("h2", "Differences between the scenes") + settings +
-                           curves_section(data.curves) + charts_section(false) +
-                           results_table(study);
+                           curves_section("Over the radius", data.curves, of_limits) +
+                           charts_section(false) + results_table(study);
   const Playback none;
   return page_html({title, version(), body, "study.csv", std::move(data), none,
                     "The numbers of this page are in study.csv and study.json, those of every "
