@@ -89,28 +89,16 @@ py::dict deformation_of(const RestShape& rest, const py::object& given) {
 }  // namespace
 
 void bind_deformation(py::module_& module) {
-  py::class_<RestShape, std::shared_ptr<RestShape>>(
-      module, "RestShape",
-      "Points (n, 3) at rest; those closer than `cutoff` are neighbors, found once. Deformation of "
-      "a later moment is the least-squares fit over them (Falk and Langer 1998).")
-      .def(py::init(&shape_of), py::arg("points"), py::arg("cutoff"))
+  py::class_<RestShape, std::shared_ptr<RestShape>>(module, "_RestShape")
+      .def(py::init(&shape_of))
       .def("__len__", [](const RestShape& rest) { return rest.points.size(); })
-      .def("__repr__",
-           [](const RestShape& rest) {
-             return "<sinew.RestShape of " + std::to_string(rest.points.size()) + " points, " +
-                    std::to_string(rest.neighbors.neighbor.size() / 2) + " pairs>";
-           })
+      .def_property_readonly(
+          "pairs", [](const RestShape& rest) { return rest.neighbors.neighbor.size() / 2; })
       .def_property_readonly(
           "points",
           [](const py::object& self) { return view_of(self.cast<RestShape&>().points, self); })
-      .def("gradients", &fits_of, py::arg("now"),
-           "Deformation gradients F (n, 3, 3) and D2min (n,), the mean of |dx - F dX|^2 over the "
-           "neighbors, when the points have moved to `now` (n, 3), in the same order. Points that "
-           "are gone are not-a-number there; so is the result where the neighbors lie in a plane.")
-      .def("arrays", &deformation_of, py::arg("now"),
-           "What follows from these, by name: F and R of F = R U (n, 9), row by row, strain "
-           "(Green-Lagrange; XX, YY, ZZ, XY, YZ, XZ), stretch (the largest first), J, strain_eq, "
-           "D2min, and rotation, the angle of R in degrees.");
+      .def("gradients", &fits_of)
+      .def("arrays", &deformation_of);
 }
 
 }  // namespace sinew::python

@@ -172,6 +172,11 @@ PolygonSoup polygons_of(const py::object& vertices, const py::object& faces) {
   return soup;
 }
 
+py::str text_of(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
+}
+
 std::vector<Override> overrides_of(const Values& values) {
   std::vector<Override> overrides;
   for (const auto& [path, value] : values) overrides.push_back({path, value, path + '=' + value});

@@ -30,6 +30,9 @@ Points known_points_of(const py::object& given, const std::string& name);
 /// "faces", and the entry, for what cannot be a mesh.
 PolygonSoup polygons_of(const py::object& vertices, const py::object& faces);
 
+/// A text of the library, with whatever bytes names of files have.
+py::str text_of(const std::string& text);
+
 /// Settings as pairs of a path and YAML: {"body.radius", "0.01"}.
 using Values = std::vector<std::pair<std::string, std::string>>;
 

@@ -41,13 +41,14 @@ py::dict make_scene_of(const NewSceneWish& wish) {
     written = write_new_scene(wish);
   }
   py::dict found;
-  found["path"] = written.path;
-  found["mesh"] = written.mesh;
+  found["path"] = text_of(written.path);
+  found["mesh"] = text_of(written.mesh);
   found["unit"] = written.scene.unit;
   found["up"] = written.scene.axes;
   found["bones"] = written.scene.bones;
   found["rest"] = written.scene.pose;
   found["size"] = written.scene.size;
+  found["time"] = written.scene.time;
   found["warning"] = written.scene.warning;
   return found;
 }
@@ -58,16 +59,14 @@ void bind_inspection(py::module_& module) {
   module.def("_info", &info);
   module.def("_check", &check);
   module.def("_new", [](const std::filesystem::path& mesh, const std::filesystem::path& rig,
-                        const std::filesystem::path& scene, bool force) {
-    return make_scene_of({mesh.string(), rig.string(), scene.string(), {}, force});
+                        const std::filesystem::path& scene, bool force, bool quick) {
+    return make_scene_of({mesh.string(), rig.string(), scene.string(), {}, force, {}, {}, quick});
   });
-  module.def("_new_of_polygons",
-             [](const SharedPolygons& polygons, const std::filesystem::path& rig,
-                const std::filesystem::path& scene, bool force) {
-               NewSceneWish wish{"mesh", rig.string(), scene.string(), {}, force};
-               wish.polygons = *polygons;
-               return make_scene_of(wish);
-             });
+  module.def("_new_of_polygons", [](const SharedPolygons& polygons,
+                                    const std::filesystem::path& rig,
+                                    const std::filesystem::path& scene, bool force, bool quick) {
+    return make_scene_of({"mesh", rig.string(), scene.string(), {}, force, *polygons, {}, quick});
+  });
 }
 
 }  // namespace sinew::python

@@ -1,39 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The module sinew._sinew; sinew/__init__.py adds what is easier in Python.
-#include <array>
-#include <string>
-#include <string_view>
-#include <utility>
+#include <sinew/core/parallel.h>
 
 #include "arrays.h"
+#include "given.h"
 #include "without_gil.h"
 
 namespace {
 
 namespace py = pybind11;
 
-/// A message in which options of the commands are arguments of Python.
-std::string for_python(std::string message) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> words{
-      {{" --resume", " resume=True"}, {" --force", " force=True"}, {" with -o", ""}}};
-  for (const auto& [option, argument] : words)
-    for (auto at = message.find(option); at != std::string::npos; at = message.find(option, at))
-      message.replace(at, option.size(), argument);
-  return message;
-}
-
-/// Errors of the library become sinew.Error, with the exit code that the commands end with.
-void bind_errors(py::module_& module) {
-  static py::exception<sinew::Error> error(module, "Error");
-  error.attr("exit_code") = static_cast<int>(sinew::Exit::bad_input);
+/// Errors of the library become sinew.Error, in words of Python.
+void bind_errors() {
   // NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 calls
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const sinew::Error& caught) {
-      py::object value = py::reinterpret_borrow<py::object>(error)(for_python(caught.what()));
-      value.attr("exit_code") = static_cast<int>(caught.exit());
-      PyErr_SetObject(error.ptr(), value.ptr());
+      const py::object error = py::module_::import("sinew._error")
+                                   .attr("of_library")(sinew::python::text_of(caught.what()),
+                                                       static_cast<int>(caught.exit()));
+      PyErr_SetObject(py::type::handle_of(error).ptr(), error.ptr());
     }
   });
 }
@@ -57,10 +44,15 @@ void refuse_bases() {
 }  // namespace
 
 PYBIND11_MODULE(_sinew, module) {
-  module.doc() = "Elastic bodies bent by a skeleton.";
+  module.doc() = "What the package sinew calls of the library.";
   module.attr("__version__") = sinew::version();
-  bind_errors(module);
+  bind_errors();
   refuse_bases();
+  module.def("_with_threads", [](int threads, const py::object& job) {
+    py::object result;
+    sinew::with_threads(threads, [&] { result = job(); });
+    return result;
+  });
   py::module_::import("atexit").attr("register")(
       py::cpp_function(&sinew::python::WithoutGil::let_all_end));
   sinew::python::bind_meshes(module);

@@ -18,12 +18,26 @@ std::shared_ptr<RunFiles> open(const std::filesystem::path& folder) {
   return std::make_shared<RunFiles>(open_run({folder}));
 }
 
-py::dict measure(const RunFiles& run) {
-  Measured measured;
-  {
+/// Ctrl-C and exceptions of the callback end it between two frames.
+Measured measured_by(const RunFiles& run, const py::object& progress) {
+  struct Ended {};
+  Listener listener(progress);
+  MeasureOptions how;
+  how.progress = [&](std::size_t done, std::size_t of) {
+    listener.report(done, of);
+    if (listener.ended()) throw Ended();
+  };
+  try {
     const WithoutGil free;
-    measured = measure_run(run, {});
+    return measure_run(run, how);
+  } catch (const Ended&) {
+    listener.raise();
+    throw;
   }
+}
+
+py::dict measure(const RunFiles& run, const py::object& progress) {
+  const Measured measured = measured_by(run, progress);
   py::dict columns;
   for (const Metric& metric : metrics_table()) {
     std::vector<double> values;
@@ -34,9 +48,9 @@ py::dict measure(const RunFiles& run) {
 }
 
 /// Measures a run into its folder, with the report.
-std::filesystem::path report(const RunFiles& run) {
+std::filesystem::path report(const RunFiles& run, const py::object& progress) {
+  Measured measured = measured_by(run, progress);
   const WithoutGil free;
-  Measured measured = measure_run(run, {});
   write_tables(run, measured);
   write_report(run, std::move(measured), MovieLink::if_there);
   return run.folder.path / "report.html";
@@ -91,25 +105,24 @@ class RunCells {
 };
 
 void simulate_into(const Settings& scene, const std::filesystem::path& folder, bool force,
-                   bool resume) {
+                   bool resume, const py::object& progress) {
+  Listener listener(progress);
   SimulateOptions options;
   options.force = force, options.resume = resume;
   options.command = {"sinew.simulate"};
-  bool interrupted = false;
-  Stopwatch since_asked;
-  const bool hears_signals = is_main_thread();
-  options.stop_requested = [&] {  // after every step
-    if (leaving) return true;
-    if (!hears_signals || interrupted || since_asked.seconds() < 0.05) return interrupted;
-    since_asked.lap();
-    const py::gil_scoped_acquire acquire;
-    return interrupted = PyErr_CheckSignals() != 0;
+  options.stop_requested = [&] { return listener.ended(); };
+  options.progress = [&](const RunProgress& at) {
+    listener.report(static_cast<std::size_t>(at.frame), static_cast<std::size_t>(at.frames));
   };
   {
     const WithoutGil free;
-    simulate(scene, {folder}, options);
+    try {
+      simulate(scene, {folder}, options);
+    } catch (const Error& error) {
+      if (error.exit() != Exit::interrupted) throw;
+    }
   }
-  if (interrupted) throw py::error_already_set();
+  listener.raise();
 }
 
 void bind_frame(py::module_& module) {

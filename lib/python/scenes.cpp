@@ -5,6 +5,10 @@
 
 #include <cmath>
 
+#include <sinew/core/file.h>
+#include <sinew/run/run_folder.h>
+#include <sinew/scene/body_mesh.h>
+#include <sinew/settings/write_scene.h>
 #include "arrays.h"
 #include "body.h"
 #include "given.h"
@@ -32,9 +36,8 @@ void bind_body(py::module_& module) {
   const auto view = [](auto B::*member) {
     return [member](const py::object& self) { return view_of(self.cast<B&>().*member, self); };
   };
-  py::class_<B, std::shared_ptr<B>>(module, "Body")
-      .def(py::init(&body_of_points), py::arg("points"), py::arg("radius"),
-           py::arg("mass") = std::nullopt, py::arg("density") = 1000.0)
+  py::class_<B, std::shared_ptr<B>>(module, "_Body")
+      .def(py::init(&body_of_points))
       .def_property_readonly("points", view(&B::points))
       .def_property_readonly("component", view(&B::component))
       .def_property_readonly("neighbors", view(&B::neighbors))
@@ -55,7 +58,7 @@ void bind_body(py::module_& module) {
 
 void bind_scenes(py::module_& module) {
   bind_body(module);
-  py::class_<Settings>(module, "Scene")
+  py::class_<Settings>(module, "_Scene")
       .def_property_readonly("duration", [](const Settings& s) { return s.solver.duration; })
       .def_property_readonly("interval", [](const Settings& s) { return s.output.interval; })
       .def("__str__",
@@ -65,6 +68,23 @@ void bind_scenes(py::module_& module) {
   });
   module.def("_scene_of_text", [](const std::string& text, const std::filesystem::path& folder) {
     return scene_from_text(text, "scene", folder);
+  });
+  module.def("_presets", [] {
+    py::list rows;
+    for (const MaterialPreset& one : material_presets())
+      rows.append(py::make_tuple(one.name, one.young_modulus, one.density, one.poisson_ratio,
+                                 one.damping_ratio, one.yield_strain.value_or(std::nan("")),
+                                 one.what, one.source));
+    return rows;
+  });
+  module.def("_write_scene", [](const Settings& given, const std::filesystem::path& folder) {
+    const Settings scene = with_mesh_files(given, folder / "meshes");
+    create({folder});
+    write_mesh_files(scene);
+    write_file(folder / "scene.yaml", resolved_scene(scene, folder));
+  });
+  module.def("_write_file", [](const std::filesystem::path& path, const std::string& content) {
+    write_file(path, content);
   });
   module.def("_set_mesh", [](Settings& scene, const SharedPolygons& polygons) {
     scene.meshes[scene.body.mesh] = polygons;

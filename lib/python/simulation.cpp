@@ -2,12 +2,17 @@
 // A simulation that Python steps, poses and pushes.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <map>
 
+#include <sinew/core/archive.h>
+#include <sinew/core/hash.h>
+#include <sinew/core/text.h>
+#include <sinew/io/state_archive.h>
+#include <sinew/run/stepped_run.h>
 #include <sinew/scene/rig.h>
 #include "arrays.h"
 #include "body.h"
@@ -20,16 +25,61 @@ namespace {
 /// A moment, with what Python had set until then.
 struct SavedMoment {
   SimulationState state;
-  std::optional<Posing> posing;  ///< where set_pose() was called
+  std::optional<PosedTurn> posed;  ///< where set_pose() was called
   Points own_forces;
 };
+
+/// Members in memory alone included, for core/archive.h.
+template <class Archive>
+void serialize(Archive& archive, SavedMoment& saved) {
+  archive(saved.state);
+  archive(saved.state.body);
+  EvenSteps& even = saved.state.even;
+  archive(even.from);
+  for (double* one : {&even.since, &even.step, &even.made}) archive(*one);
+  archive(saved.own_forces);
+  archive(saved.posed);
+}
+
+constexpr std::string_view state_mark = "sinew state\n";
+
+std::string state_bytes(const SavedMoment& saved) {
+  const std::string state = archived(std::string(version())) + archived(saved);
+  Hash hash;
+  hash.add(state);
+  return std::string(state_mark) + archived(hash.value()) + state;
+}
+
+SavedMoment state_of_bytes(const std::string& text) {
+  std::string_view bytes = text;
+  const auto refused = [](const std::string& what) {
+    return bad_input("the saved state " + what, "save it anew by the simulation of its scene");
+  };
+  if (bytes.substr(0, state_mark.size()) != state_mark) throw refused("is no state of sinew");
+  bytes.remove_prefix(state_mark.size());
+  Hash hash;
+  hash.add(bytes.substr(std::min(bytes.size(), sizeof(std::uint64_t))));
+  ArchiveReader reader(bytes);
+  std::uint64_t written = 0;
+  std::string by;
+  SavedMoment saved;
+  if (bytes.size() < sizeof written) throw refused("is truncated");
+  reader(written);
+  if (written != hash.value()) throw refused("is damaged");
+  reader(by);
+  if (by != version()) throw refused("is of sinew " + shown(by) + ", not " + version());
+  reader(saved);
+  if (!reader.done()) throw refused("is damaged");
+  return saved;
+}
 
 /// A scene's simulation, with what Python sees of it: arrays at places that stay.
 class Stepped {
  public:
-  Stepped(const Settings& scene, const std::shared_ptr<FilledBody>& body, bool own_forces) {
+  Stepped(const Settings& scene, const std::shared_ptr<FilledBody>& body, bool own_forces)
+      : scene_(scene), filled_(body) {
     const WithoutGil free;
-    begin(body ? prepare({scene, body->file(), false}) : prepare({scene}), own_forces);
+    begin(prepared(), own_forces);
   }
 
   /// Asks between steps whether Ctrl-C was pressed.
@@ -40,6 +90,11 @@ class Stepped {
   void run_until(double time) {
     if (!std::isfinite(time)) throw bad_input("the time is not finite", "give seconds");
     constexpr double rounding = 1e-12;  // fraction of times, which are numbers of steps
+    refuse_while_stepping();
+    if (time < simulation_->time() && time * (1 + rounding) <= before_)
+      throw bad_input(number_text(time) + " s is past: the simulation is at " +
+                          number_text(simulation_->time()) + " s",
+                      "give a later time, or restore() a state that was saved before");
     run([&, end = time * (1 - rounding)] { return simulation_->time() < end; });
   }
 
@@ -97,7 +152,6 @@ class Stepped {
     next.turn(turned, time(), over);
     simulation_->play(next.motion());  // which may refuse: what is remembered stays true
     posing_ = std::move(next);
-    is_posed_ = true;
   }
 
   std::vector<RigidFrame> bone_frames() const {
@@ -149,26 +203,55 @@ class Stepped {
     return shared(frame_data_->dataset(series));
   }
 
+  /// Adds a frame of the present moment to the run in a folder, which the first call begins.
+  int write(const std::filesystem::path& folder, bool force) {
+    const Busy busy(stepping_);
+    const WithoutGil free;
+    if (run_ && folder != run_->folder().path)
+      throw bad_input(Place{run_->folder().path.string()}, "is the run of this simulation",
+                      "finish() it before another begins");
+    if (!run_) {
+      written_of_.emplace(prepared());
+      run_.emplace(RunFolder{folder}, *written_of_, *simulation_,
+                   SteppedRunOptions{force, {"sinew.Simulation.write"}});
+    }
+    run_->add(*simulation_);
+    return run_->frames();
+  }
+  /// The folder of the run, which has come to its end.
+  std::filesystem::path finish() {
+    const Busy busy(stepping_);
+    const WithoutGil free;
+    if (!run_) throw bad_input("no run is being written", "begin one with write(folder)");
+    std::filesystem::path folder = run_->folder().path;
+    try {
+      run_->end();
+    } catch (const Error&) {
+      run_.reset();
+      throw;
+    }
+    run_.reset(), written_of_.reset();
+    return folder;
+  }
+
   SavedMoment save() const {
     refuse_while_stepping();
-    SavedMoment saved{simulation_->save(), std::nullopt, {}};
-    if (is_posed_) saved.posing = posing_;
+    SavedMoment saved{simulation_->save(), posing_->last(), {}};
     if (own_forces_) saved.own_forces = own_forces_->now();
     return saved;
   }
   void restore(const SavedMoment& saved) {
     refuse_while_stepping();
     simulation_->restore(saved.state);
-    if (is_posed_ || saved.posing) {
-      posing_ = saved.posing ? *saved.posing : *first_posing_;
-      simulation_->play(posing_->motion());
-      is_posed_ = saved.posing.has_value();
-    }
+    time_ = before_ = simulation_->time(), steps_ = simulation_->steps();
+    read_at_ = taken_at_ = -1;
+    Posing posing = *first_posing_;
+    if (saved.posed) posing.repeat(*saved.posed);
+    if (posing_->last() || saved.posed) simulation_->play(posing.motion());
+    posing_ = std::move(posing);
     if (own_forces_)
       own_forces_->set(saved.own_forces.empty() ? Points(positions_.size(), Vec3::Zero())
                                                 : saved.own_forces);
-    time_ = simulation_->time(), steps_ = simulation_->steps();
-    read_at_ = taken_at_ = -1;
   }
 
  private:
@@ -180,6 +263,10 @@ class Stepped {
   }
   void refuse_while_stepping() const {
     if (stepping_) refuse();
+  }
+
+  Prepared prepared() const {
+    return filled_ ? prepare({scene_, filled_->file(), false}) : prepare({scene_});
   }
 
   void begin(Prepared prepared, bool own_forces) {
@@ -220,18 +307,17 @@ class Stepped {
 
   template <class Goes>
   void run(const Goes& goes) {
-    using Clock = std::chrono::steady_clock;
-    const bool hears_signals = is_main_thread();
+    Listener listener;
     const Busy busy(stepping_);
-    const WithoutGil free;
-    for (auto asked = Clock::now(); !leaving && goes();) {
-      simulation_->step();
-      time_ = simulation_->time(), steps_ = simulation_->steps();
-      if (!hears_signals || Clock::now() - asked < std::chrono::milliseconds(50)) continue;
-      asked = Clock::now();
-      const py::gil_scoped_acquire acquire;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    {
+      const WithoutGil free;
+      while (!listener.ended() && goes()) {
+        before_ = simulation_->time();
+        simulation_->step();
+        time_ = simulation_->time(), steps_ = simulation_->steps();
+      }
     }
+    listener.raise();
   }
 
   Stepped& read() {
@@ -244,9 +330,10 @@ class Stepped {
     return *this;
   }
 
+  Settings scene_;
+  std::shared_ptr<FilledBody> filled_;  ///< null: what the scene says
   std::optional<Simulation> simulation_;
   std::optional<Posing> first_posing_, posing_;
-  bool is_posed_ = false;  ///< whether set_pose() has posed it
   std::optional<OwnForces> own_forces_;
   std::optional<ParticleMeter> meter_;  ///< where arrays were asked for
   OutputSettings output_;
@@ -259,7 +346,10 @@ class Stepped {
   std::int64_t read_at_ = -1, taken_at_ = -1;
   std::atomic<bool> stepping_ = false;
   std::atomic<double> time_ = 0;
+  double before_ = 0;  ///< time before the last step, s
   std::atomic<std::int64_t> steps_ = 0;
+  std::optional<Prepared> written_of_;  ///< start of what is written
+  std::optional<SteppedRun> run_;       ///< the last member: writes of the simulation
 };
 
 }  // namespace
@@ -275,29 +365,29 @@ class pybind11::detail::type_caster<sinew::python::SavedMoment>
 namespace sinew::python {
 
 void bind_simulation(py::module_& module) {
-  py::class_<SavedMoment>(module, "State");
+  py::class_<SavedMoment>(module, "_State")
+      .def("bytes", [](const SavedMoment& saved) { return py::bytes(state_bytes(saved)); })
+      .def_property_readonly("steps", [](const SavedMoment& saved) { return saved.state.steps; });
+  module.def("_state_of", &state_of_bytes);
   using S = Stepped;
   const auto view = [](auto array) {
     return [array](const py::object& self) { return view_of((self.cast<S&>().*array)(), self); };
   };
-  py::class_<S>(module, "Simulation")
-      .def(py::init<const Settings&, const std::shared_ptr<FilledBody>&, bool>(), py::arg("scene"),
-           py::arg("body") = nullptr, py::kw_only(), py::arg("own_forces") = false)
-      .def("step", &S::step, py::arg("count") = 1)
-      .def("run_until", &S::run_until, py::arg("time"))
-      .def("set_forces", &S::set_forces, py::arg("forces"))
-      .def("set_pose", &S::set_pose, py::arg("rotations"), py::arg("over") = 1.0 / 30)
+  py::class_<S>(module, "_Simulation")
+      .def(py::init<const Settings&, const std::shared_ptr<FilledBody>&, bool>())
+      .def("step", &S::step)
+      .def("run_until", &S::run_until)
+      .def("set_forces", &S::set_forces)
+      .def("set_pose", &S::set_pose)
       .def("energies", &S::energies)
-      .def(
-          "array", [](S& self, const std::string& name) { return rows_of(self.measured(name)); },
-          py::arg("name"))
-      .def(
-          "surface_array",
-          [](S& self, const std::string& name) { return rows_of(self.measured_on_surface(name)); },
-          py::arg("name"))
-      .def("_dataset", &S::dataset, py::arg("series"))
+      .def("array", [](S& self, const std::string& name) { return rows_of(self.measured(name)); })
+      .def("surface_array",
+           [](S& self, const std::string& name) { return rows_of(self.measured_on_surface(name)); })
+      .def("dataset", &S::dataset)
       .def("save", &S::save)
-      .def("restore", &S::restore, py::arg("state"))
+      .def("restore", &S::restore)
+      .def("write", &S::write)
+      .def("finish", &S::finish)
       .def_property_readonly("bone_frames",
                              [](const S& self) { return matrices(self.bone_frames()); })
       .def_property_readonly("reactions",

@@ -54,10 +54,43 @@ class WithoutGil {
   std::optional<py::gil_scoped_release> released_;
 };
 
-/// Whether signals reach Python from this thread, which holds the lock.
-inline bool is_main_thread() {
-  const auto main = py::module_::import("threading").attr("main_thread")().attr("ident");
-  return main.cast<unsigned long>() == PyThread_get_thread_ident();
-}
+/// What long work without the lock asks Python meanwhile: whether Ctrl-C was pressed, and a
+/// callback of progress, which may end the work by an exception.
+class Listener {
+ public:
+  explicit Listener(py::object progress = py::none()) : progress_(std::move(progress)) {
+    const auto main = py::module_::import("threading").attr("main_thread")().attr("ident");
+    hears_signals_ = main.cast<unsigned long>() == PyThread_get_thread_ident();
+  }
+
+  /// Whether the work is to end; asked after every step.
+  bool ended() {
+    const auto now = std::chrono::steady_clock::now();
+    if (leaving || failed_) return true;
+    if (!hears_signals_ || now - asked_ < std::chrono::milliseconds(50)) return false;
+    asked_ = now;
+    const py::gil_scoped_acquire acquire;
+    return failed_ = PyErr_CheckSignals() != 0;
+  }
+  void report(std::size_t done, std::size_t of) {
+    if (leaving || failed_ || progress_.is_none()) return;
+    const py::gil_scoped_acquire acquire;
+    try {
+      progress_(done, of);
+    } catch (py::error_already_set& thrown) {
+      thrown.restore();
+      failed_ = true;
+    }
+  }
+  /// Raises the exception that has ended the work, if one has. The caller holds the lock.
+  void raise() const {
+    if (failed_) throw py::error_already_set();
+  }
+
+ private:
+  py::object progress_;
+  bool hears_signals_ = false, failed_ = false;
+  std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace sinew::python

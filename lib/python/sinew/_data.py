@@ -1,8 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Data sets: arrays by name, and as VTK, PyVista and trimesh have them, without copies where these allow it."""
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from typing import Any
+
 import numpy
+from numpy.typing import NDArray
 
 from . import _sinew
+from ._error import Error
+from ._values import checked
 
 _CELL_TYPES = {1: 1, 2: 3, 3: 5, 4: 10}  # VTK's numbers by points per cell: vertex, line, triangle, tetrahedron
 
@@ -11,7 +20,7 @@ def _wanted(module, what):
     try:
         return __import__(module)
     except ImportError:
-        raise _sinew.Error(f"{module} is not installed, which {what} is for; install it, or use to_vtk() or the arrays") from None
+        raise Error(f"{module} is not installed, which {what} needs; install it, or use the arrays") from None
 
 
 def trimesh_of(vertices, faces):
@@ -35,6 +44,7 @@ def vtk_array(values, name, unit=""):
 
 def vtk_grid(points, blocks, point_arrays, cell_arrays=(), field_arrays=(), units={}):
     """A vtkUnstructuredGrid of cells in blocks of one size each."""
+    _wanted("vtkmodules", "to_vtk()")
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
     grid, places, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
@@ -68,80 +78,100 @@ def particles_of_body(body):
     return vtk_grid(body.points, [numpy.arange(number).reshape(-1, 1)], arrays, units={"radius": "m", "mass": "kg"})
 
 
-class Dataset:
-    """One series at one moment, as its file has it: points, cells, and arrays by name.
+def tell_unknown(values, name, told):
+    """The values; warns once where some of the particles have none."""
+    unknown = numpy.isnan(values).reshape(len(values), -1).any(1).sum() if values.dtype.kind == "f" and len(values) else 0
+    if unknown and name not in told:
+        told.add(name)
+        warnings.warn(f"{name} is not-a-number for {unknown} of {len(values)} particles: they have too few neighbors at rest to "
+                      "be strained, are inverted, or have no bone; leave them out (numpy.nanmax), or make the radius smaller",
+                      RuntimeWarning, stacklevel=4)
+    return values
 
-    data["stress"] is an array of the points, or else of the cells or the whole. All are views, not writable."""
+
+class Dataset:
+    """One series at one moment, as its file has it: what dataset(), run.frames("surface") and tetrahedra() return.
+
+    `series` names it, `time` (s) is the moment. data["stress"] is an array of the points, or else of the cells or the whole.
+    All are views, not writable."""
+
+    series: str
+    time: float
 
     def __init__(self, data, series, time=None):
-        self._data, self.series = data, series
+        self._native, self.series = data, series
         self.time = data.time if time is None else time
 
     @property
-    def points(self):
-        """(n, 3), m."""
-        return self._data.points
+    def points(self) -> NDArray[numpy.float64]:
+        """Positions of the points (n, 3), m."""
+        return self._native.points
 
     @property
-    def cells(self):
+    def cells(self) -> NDArray[numpy.int32]:
         """Points of each cell: (m, 1) vertices, (m, 2) lines, (m, 3) triangles or (m, 4) tetrahedra."""
-        return self._data.cells
+        return self._native.cells
 
     @property
-    def lines(self):
-        """(k, 2): lines that follow the cells."""
-        return self._data.lines
+    def lines(self) -> NDArray[numpy.int32]:
+        """Points of the lines that follow the cells (k, 2); mostly none."""
+        return self._native.lines
 
     @property
-    def point_arrays(self):
-        return self._data.point_arrays
+    def point_arrays(self) -> dict[str, NDArray[Any]]:
+        """Arrays of the points by name, a row for each."""
+        return self._native.point_arrays
 
     @property
-    def cell_arrays(self):
-        return self._data.cell_arrays
+    def cell_arrays(self) -> dict[str, NDArray[Any]]:
+        """Arrays of the cells by name, a row for each; lines follow the cells."""
+        return self._native.cell_arrays
 
     @property
-    def field_arrays(self):
-        """Values of the whole: energies, ..."""
-        return self._data.field_arrays
+    def field_arrays(self) -> dict[str, NDArray[Any]]:
+        """Values of the whole by name: energies (J), ..."""
+        return self._native.field_arrays
 
     @property
-    def units(self):
+    def units(self) -> dict[str, str]:
         """Units of the arrays, by name; "1": a pure number."""
-        return _sinew._units(self.series, self._data)
+        return _sinew._units(self.series, self._native)
 
-    def keys(self):
+    def keys(self) -> list[str]:
+        """Names of all arrays: of points, cells and the whole."""
         return [*self.point_arrays, *self.cell_arrays, *self.field_arrays]
 
-    def __contains__(self, name):
+    def __contains__(self, name: object) -> bool:
         return name in self.keys()
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self.keys())
 
-    def __getitem__(self, name):
+    @checked
+    def __getitem__(self, name: str) -> NDArray[Any]:
         for arrays in (self.point_arrays, self.cell_arrays, self.field_arrays):
             if name in arrays:
                 return arrays[name]
-        raise _sinew.Error(f"{self.series} have no array {name!r}; take one of {', '.join(self.keys())}")
+        raise Error(f"{self.series} have no array {name!r}; take one of {', '.join(self.keys())}")
 
     def __repr__(self):
         return (f"<sinew.Dataset {self.series} at {self.time:.6g} s: {len(self.points)} points, "
                 f"{len(self.cells) + len(self.lines)} cells; {', '.join(self.keys())}>")
 
-    def to_vtk(self):
+    def to_vtk(self) -> Any:
         """A vtkUnstructuredGrid on the same arrays."""
         blocks = [block for block in (self.cells, self.lines) if len(block)] or [self.cells]
         return vtk_grid(self.points, blocks, self.point_arrays, self.cell_arrays,
                         {**self.field_arrays, "TimeValue": numpy.array([self.time])}, self.units)
 
-    def to_pyvista(self):
-        """A pyvista.UnstructuredGrid on the same arrays."""
+    def to_pyvista(self) -> Any:
+        """A pyvista.UnstructuredGrid on the same arrays. Raises Error where pyvista is not installed."""
         return pyvista_of(self.to_vtk())
 
 
 def vtk_composite(datasets):
     """A vtkMultiBlockDataSet of named data sets."""
+    _wanted("vtkmodules", "to_vtk()")
     from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet
     blocks = vtkMultiBlockDataSet()
     for index, (name, data) in enumerate(datasets.items()):
