@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t particles_per_piece = 4096;
-constexpr std::uint64_t max_bytes = std::uint64_t{1} << 40;  // 1 TiB
+constexpr std::uint64_t max_bytes = std::uint64_t{1} << 40;  // 1 TiB: 512 for each id of 31 bits
 
 std::size_t max_in_a_row(const NeighborLists& lists) {
   std::size_t most = 0;

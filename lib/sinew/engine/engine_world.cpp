@@ -87,7 +87,7 @@ void EngineWorld::read_from(std::int64_t step) {
 void EngineWorld::go_to(std::int64_t step, double time) {
   now_ = {};
   for (const ForceField& field : world_.fields) now_.scales.push_back(field.scale.at(time));
-  for (const Load& load : world_.loads) now_.loads.push_back(load.scale.at(time));
+  for (const Load& load : world_.loads) now_.loads.push_back(load.at(time));
   if (width() == 0) return;
   const auto there = static_cast<std::int64_t>(poses_.size() / width());
   if (step < read_ || step >= read_ + there) read_from(step);
@@ -114,7 +114,7 @@ Vec3 EngineWorld::load(std::int32_t id) const {
                                         static_cast<std::uint32_t>(id));
     if (found == load.particles.end() || *found != static_cast<std::uint32_t>(id)) continue;
     const auto k = static_cast<std::size_t>(found - load.particles.begin());
-    sum += now_.loads[n] * load.weight[k] * load.force;
+    sum += now_.loads[n].scale * load.weight[k] * load.force;
   }
   return sum;
 }

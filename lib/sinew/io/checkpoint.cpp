@@ -10,6 +10,7 @@
 #include <sinew/core/file.h>
 #include <sinew/core/hash.h>
 #include <sinew/core/text.h>
+#include <sinew/io/state_archive.h>
 
 namespace sinew {
 namespace {
@@ -31,38 +32,6 @@ Error no_checkpoint(const std::string& what) { return bad_input(what, cure); }
 }  // namespace
 
 // Members in the order of the file, for core/archive.h.
-
-template <class Archive, class Coord, class Real>
-void serialize(Archive& archive, MovingColumns<Coord, Real>& moving) {
-  for (auto& axis : moving.x) archive(axis);
-  for (auto& axis : moving.v) archive(axis);
-}
-
-template <class Archive>
-void serialize(Archive& archive, StateColumn& column) {
-  archive(column.name);
-  archive(column.numbers);
-}
-
-template <class Archive>
-void serialize(Archive& archive, StatePart& part) {
-  archive(part.name);
-  archive(part.columns);
-}
-
-template <class Archive>
-void serialize(Archive& archive, SimulationState& state) {
-  archive(state.steps);
-  archive(state.kicked);
-  archive(state.fixed_point_units.length);
-  archive(state.fixed_point_units.origin);
-  archive(state.fixed_point_units.box.min());
-  archive(state.fixed_point_units.box.max());
-  archive(state.fixed_point_units.traveled);
-  archive(state.order);
-  archive(state.moving);
-  archive(state.parts);
-}
 
 template <class Archive>
 void serialize(Archive& archive, RunIdentity& run) {

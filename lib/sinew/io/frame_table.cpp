@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include <sinew/core/csv.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 
@@ -32,10 +33,7 @@ std::uint64_t size_of_rows(const std::filesystem::path& path, std::size_t rows) 
 std::string csv_cell(std::string text) {
   if (!text.empty() && std::string_view("=+-@\t\r'").find(text[0]) != std::string_view::npos)
     text.insert(0, 1, '\'');
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  return quoted_cell(text);
 }
 
 void add_cell(double value, std::string& row) {

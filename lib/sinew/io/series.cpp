@@ -138,19 +138,36 @@ std::string frame_name(const std::string& series, std::size_t number) {
   return series + '/' + series + digits + ".vtu";
 }
 
+namespace {
+
+void write_lists_of(const fs::path& folder, const std::string& name,
+                    const std::vector<PvdRow>& rows) {
+  const auto [pvd, series] = series_files(name);
+  write_file(folder / pvd, pvd_text(rows));
+  write_file(folder / series, series_text(rows));
+}
+
+}  // namespace
+
+void keep_frames(const fs::path& folder, const std::string& series,
+                 const std::vector<PvdRow>& rows) {
+  try {
+    // The lists are truncated first: they never name a file that does not exist.
+    if (!rows.empty()) write_lists_of(folder, series, rows);
+    remove_older(folder, series, rows);
+  } catch (const fs::filesystem_error& error) {
+    throw not_written((folder / series).string(), error.code().message(),
+                      "choose a place you may write to");
+  }
+}
+
 Series::Series(fs::path folder, VtuFormat format, std::span<const double> kept)
     : folder_(std::move(folder)), format_(std::move(format)) {
   format_.finite = true;
   keep(kept);
   create_inner_folder(folder_ / format_.series);
-  try {
-    // The lists are truncated first: they never name a file that does not exist.
-    if (!rows_.empty()) write_lists();
-    remove_older(folder_, format_.series, rows_);
-  } catch (const fs::filesystem_error& error) {
-    throw not_written((folder_ / format_.series).string(), error.code().message(),
-                      "choose a place you may write to");
-  }
+  keep_frames(folder_, format_.series, rows_);
+  rows_listed_ = rows_.size();
 }
 
 void Series::keep(std::span<const double> times) {
@@ -201,9 +218,7 @@ void Series::close() {
 }
 
 void Series::write_lists() {
-  const auto [pvd, series] = series_files(format_.series);
-  write_file(folder_ / pvd, pvd_text(rows_));
-  write_file(folder_ / series, series_text(rows_));
+  write_lists_of(folder_, format_.series, rows_);
   rows_listed_ = rows_.size();
   listed_ = std::chrono::steady_clock::now();
 }

@@ -39,6 +39,11 @@ std::array<std::string, 2> series_files(const std::string& series);
 /// "particles/particles_000012.vtu".
 std::string frame_name(const std::string& series, std::size_t number);
 
+/// Makes `rows` all that an existing series has: other frames are removed, and without rows its
+/// lists. Throws not written.
+void keep_frames(const std::filesystem::path& folder, const std::string& series,
+                 const std::vector<PvdRow>& rows);
+
 /// Writes a series frame by frame. A concurrent reader finds complete files only: each frame is
 /// written before the PVD and the .series file list it, and these are replaced at most once a
 /// second.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr SeriesFrames each = SeriesFrames::every, thinned = SeriesFrames::with_particles;
 
-constexpr std::array<SeriesRow, 11> all_series = {{
+constexpr auto all_series = std::to_array<SeriesRow>({
     {"particles", CellKind::vertex, thinned, "", "the particles"},
     {"surface", CellKind::triangle, each, "", "the surface of the body, as its particles move it"},
     {"bones", CellKind::line, each, "", "bones and their axes as lines"},
@@ -30,7 +30,7 @@ constexpr std::array<SeriesRow, 11> all_series = {{
      "the surface moved by dual-quaternion skinning alone"},
     {"values", CellKind::vertex, SeriesFrames::measured, "sinew measure --arrays",
      "arrays of the particles measured later"},
-}};
+});
 
 }  // namespace
 

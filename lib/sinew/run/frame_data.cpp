@@ -88,7 +88,7 @@ bool with_machine(const FrameContent& of) {
 }
 
 /// For every series that frames have: see series_table.h.
-constexpr std::array<SeriesMaker, 10> series_makers = {{
+constexpr auto series_makers = std::to_array<SeriesMaker>({
     {"particles", in_all_frames, [](FrameData& now) { return now.particles(); }},
     {"surface", in_all_frames, [](FrameData& now) { return now.surface(); }},
     {"bones", in_all_frames, [](FrameData& now) { return now.bones(); }},
@@ -104,7 +104,7 @@ constexpr std::array<SeriesMaker, 10> series_makers = {{
      [](FrameData& now) { return now.skinned(linear_blend_skinned); }},
     {"skin_dqs", [](const FrameContent& of) { return of.output.skin_dqs; },
      [](FrameData& now) { return now.skinned(dual_quaternion_skinned); }},
-}};
+});
 
 std::vector<std::string_view> series_of(const FrameContent& content) {
   std::vector<std::string_view> names;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include <sinew/core/csv.h>
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/metrics/report/charts.h>
@@ -18,31 +19,6 @@ namespace sinew {
 namespace {
 
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;  // bytes
-
-using Cells = std::vector<std::string>;
-
-/// The rows of a CSV file (RFC 4180); what follows the last line end is of a row being written.
-std::vector<Cells> rows_of_csv(const std::string& text) {
-  std::vector<Cells> rows;
-  Cells row(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"') {
-      row.back() += c;
-      ++i;
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      row.emplace_back();
-    } else if (c == '\n' && !quoted) {
-      rows.push_back(std::exchange(row, Cells(1)));
-    } else {
-      row.back() += c;
-    }
-  }
-  return rows;
-}
 
 std::string unit_of(std::string_view column) {
   const auto begins = [&](std::string_view start) { return column.starts_with(start); };
@@ -73,7 +49,7 @@ class Collector {
 
   void add(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) return;
-    const std::vector<Cells> rows = rows_of_csv(read_file(file, largest_file));
+    const std::vector<CsvRow> rows = rows_of_csv(read_file(file, largest_file));
     if (rows.empty() || rows[0].size() < 3 || rows[0][0] != "time" ||
         (rows[0][1] != "name" && rows[0][1] != "bone"))
       refuse(file, "is no table of forces");
@@ -86,7 +62,7 @@ class Collector {
   }
 
  private:
-  void add_row(const std::filesystem::path& file, const Cells& head, const Cells& row) {
+  void add_row(const std::filesystem::path& file, const CsvRow& head, const CsvRow& row) {
     const double time = number_in(row[0], file);
     MachineColumn& times = all_.front();
     if (times.values.empty() || time > times.values.back()) times.values.push_back(time);

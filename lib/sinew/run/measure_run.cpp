@@ -146,11 +146,33 @@ void add_worst_frames(Measured& measured, const RestBody& rest, const RunFiles& 
   }
 }
 
+/// Finds the ranges of the playback's fields.
+class FieldRanges {
+ public:
+  void add(const ParticleValues& particles) {
+    for (std::size_t f = 0; f < found_.size(); ++f)
+      found_[f].add(particles.*playback_fields()[f].values);
+  }
+
+  /// Ranges that the run has, and those found of other quantities.
+  ValueRanges ranges(const ValueRanges& of_run) const {
+    ValueRanges all = of_run;
+    for (std::size_t f = 0; f < found_.size(); ++f)
+      if (!found_[f].empty())
+        all.try_emplace(std::string(playback_fields()[f].quantity), found_[f].range());
+    return all;
+  }
+
+ private:
+  std::vector<RangeFinder> found_ = std::vector<RangeFinder>(playback_fields().size());
+};
+
 /// Data of all frames in order, besides their metrics.
 struct Course {
   std::vector<std::vector<RigidFrame>> poses;
   std::vector<double> times;
   std::vector<std::vector<std::int64_t>> worst_particles;
+  FieldRanges ranges;
   std::size_t meeting_at_rest = 0;  ///< pairs of faces of the surface
 };
 
@@ -208,6 +230,7 @@ void measure_one(Measured& measured, Course& course, const RestBody& rest, const
        measure_sections(rest.sections, measured_surface(rest, state).points, state.time))
     measured.sections.push_back(row);
   if (measured.playback.wants(i)) add_frame(measured.playback, i, rest, state, frame.particles);
+  course.ranges.add(frame.particles);
   course.worst_particles.push_back(std::move(frame.worst_particles));
   course.poses.push_back(state.bones);
   course.times.push_back(state.time);
@@ -256,6 +279,7 @@ Measured measure_run(const RunFiles& run, const MeasureOptions& how) {
                                  [&](std::size_t i) { return read_frame(run, i).positions; });
   measured.summary = summarize(measured.frames, radius, std::move(stills));
   add_worst_particles(measured.summary, course.worst_particles);
+  measured.ranges = measured.playback.ranges = course.ranges.ranges(run.ranges);
   for (const Limit& limit : how.limits)
     measured.checks.push_back(check_limit(limit, measured.frames, measured.summary));
   if (!how.playback) return measured;

@@ -51,6 +51,7 @@ struct Measured {
   Summary summary;
   std::vector<Check> checks;
   Playback playback;
+  ValueRanges ranges;                    ///< ranges of the playback's fields
   std::vector<BoneMetrics> bones;        ///< rows of every frame
   std::vector<SectionMetrics> sections;  ///< rows of every frame
 };

@@ -20,6 +20,7 @@
 #include <sinew/run/machine_columns.h>
 #include <sinew/run/run_files.h>
 #include <sinew/run/run_record.h>
+#include <sinew/scene/check/stiffness.h>
 
 namespace sinew {
 
@@ -39,7 +40,7 @@ CurveLine sampled(const char* name, double low, double high, const Law& law) {
 }
 
 std::string number(const char* name, double value, const char* unit) {
-  return std::string(name) + " = " + three_digits(value) + ' ' + unit;
+  return std::string(name) + " = " + quantity_text(value, unit);
 }
 
 LawCurve pair_curve(const Material& material) {
@@ -114,7 +115,7 @@ std::vector<LawCurve> law_curves(const RunFiles& run) {
 namespace {
 
 std::string with_unit(double value, const char* unit) {
-  return three_digits(value) + (*unit ? std::string(" ") + unit : "");
+  return *unit ? quantity_text(value, unit) : three_digits(value);
 }
 
 /// A JSON value as text.
@@ -134,6 +135,7 @@ FactGroup fill_facts(const std::string& body_meta) {
   if (!meta.is_object() || !meta.contains("fill")) return group;
   const auto units = meta.contains("fill_units") ? meta["fill_units"] : nlohmann::ordered_json();
   for (const auto& [key, value] : meta["fill"].items()) {
+    if (key == "warnings") continue;  // above, with the others
     std::string name = key;
     std::replace(name.begin(), name.end(), '_', ' ');
     const bool known = units.is_object() && units.contains(key) && units[key].is_string();
@@ -143,10 +145,9 @@ FactGroup fill_facts(const std::string& body_meta) {
   return group;
 }
 
-/// "8e+04 Pa: 1e+05 Pa less up to 20 % for 5 planes across".
+/// "80 kPa: 100 kPa along it, less up to 20 % for 5 planes across".
 std::string less_by_size(double along, double lack, double planes) {
-  return with_unit(along * (1 - lack), "Pa") + ": " + with_unit(along, "Pa") + " less up to " +
-         three_digits(100 * lack) + " % for " + three_digits(planes) + " planes across";
+  return with_unit(along * (1 - lack), "Pa") + ": " + parts_of_modulus(along, lack, planes);
 }
 
 /// What a body that bends along each bone shows, from run.json.
@@ -324,6 +325,7 @@ ReportInput report_input(const RunFiles& run, Measured measured, MovieLink movie
     input.facts = facts_of(run.folder, run.body.meta);
     input.subject = subject_of(run.folder, run.settings);
     input.end = end_of(run.folder, measured.frames);
+    input.warnings = warnings_in(read_record(run.folder));
   } catch (const nlohmann::json::exception&) {
     throw bad_input(Place{run.folder.record().string()}, "is not the record of a run",
                     "run the scene again with --force");

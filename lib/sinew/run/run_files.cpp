@@ -253,14 +253,17 @@ RunFiles open_run(const RunFolder& folder) {
   const int every = run.settings.output.every;
   run.particle_rows = rows_of(folder, "particles");
   run.surface_rows = thinned(rows_of(folder, "surface"), every);
-  run.frame_rows = thinned(rows_of(folder, "frames"), every);
+  const std::vector<PvdRow> moments = rows_of(folder, "frames");
+  run.frame_rows = thinned(moments, every);
   trim_rows(run);
+  if (run.frames() == run.frames_named) run.frames_run = moments.size();
   run.lbs_rows = thinned(rows_if_there(folder, "skin_lbs"), every);
   run.dqs_rows = thinned(rows_if_there(folder, "skin_dqs"), every);
   run.obstacle_rows = thinned(rows_if_there(folder, "obstacles"), every);
   run.support_rows = thinned(rows_if_there(folder, "supports"), every);
   run.bond_rows = rows_if_there(folder, "bonds");
   read_rest_surface(run);
+  run.ranges = recorded_ranges(folder);
   return run;
 }
 
@@ -337,7 +340,8 @@ SceneWorld scene_world(const RunFiles& run) {
 
 std::shared_ptr<const World> world_of_run(const RunFiles& run) {
   if (run.settings.world.pins.empty() && run.settings.world.muscles.empty() &&
-      run.settings.supports.empty() && run.settings.loads.empty())
+      run.settings.supports.empty() && run.settings.loads.empty() &&
+      run.settings.world.springs.empty())
     return nullptr;
   return scene_world(run).world;
 }

@@ -14,6 +14,7 @@
 
 #include <sinew/core/energies.h>
 #include <sinew/core/triangles.h>
+#include <sinew/core/value_range.h>
 #include <sinew/io/series.h>
 #include <sinew/io/single_files.h>
 #include <sinew/material/material.h>
@@ -43,7 +44,11 @@ struct RunFiles {
   std::vector<PvdRow> support_rows;        ///< support rows of supports and loads; none without
   std::vector<PvdRow> bond_rows;           ///< none if not written
 
+  ValueRanges ranges;  ///< ranges of quantities that have been found, by run.json
+
   std::size_t frames_named = 0;  ///< frames of the longest series
+  /// Frames of the run, also those that output.every leaves out; 0 if some series lack frames.
+  std::size_t frames_run = 0;
 
   std::size_t frames() const { return particle_rows.size(); }
 };

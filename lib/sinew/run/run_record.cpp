@@ -13,6 +13,8 @@
 #include <sinew/core/file.h>
 #include <sinew/core/json.h>
 #include <sinew/core/system.h>
+#include <sinew/core/text.h>
+#include <sinew/io/paraview/view_state.h>
 #include <sinew/io/series_table.h>
 
 namespace sinew {
@@ -29,6 +31,11 @@ std::string host_name() {
 bool is_seconds(const Json& value) {
   return value.is_object() && std::all_of(value.begin(), value.end(),
                                           [](const auto& spent) { return spent.is_number(); });
+}
+
+bool is_range(const Json& value) {
+  return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number() &&
+         value[0].get<double>() <= value[1].get<double>();
 }
 
 bool is_count(const Json& value) {
@@ -64,7 +71,38 @@ double seconds_of(const RunFolder& folder, const std::string& stage) {
   return read_record(folder).value("seconds", Json::object()).value(stage, 0.0);
 }
 
-void record_stage(const RunFolder& folder, const std::string& stage, double seconds) {
+Json json_of(const ValueRanges& ranges) {
+  Json json = Json::object();
+  for (const auto& [quantity, range] : ranges) json[quantity] = {range.low, range.high};
+  return json;
+}
+
+namespace {
+
+ValueRanges ranges_in(const Json& record) {
+  constexpr std::size_t most = 1000;  // more than there are quantities: a record from elsewhere
+  ValueRanges ranges;
+  const auto all = record.find("ranges");
+  if (all == record.end() || !all->is_object() || all->size() > most) return ranges;
+  for (const auto& [quantity, ends] : all->items())
+    if (is_range(ends)) ranges[quantity] = {ends[0], ends[1]};
+  return ranges;
+}
+
+}  // namespace
+
+ValueRanges recorded_ranges(const RunFolder& folder) {
+  std::error_code unreachable;
+  if (!std::filesystem::exists(folder.record(), unreachable)) return {};
+  try {
+    return ranges_in(read_record(folder));
+  } catch (const Error&) {  // a damaged record leaves the frames as they are
+    return {};
+  }
+}
+
+void record_stage(const RunFolder& folder, const std::string& stage, double seconds,
+                  const FoundRanges& found) {
   std::optional<FolderLock> lock;
   try {
     lock.emplace(folder);
@@ -74,7 +112,32 @@ void record_stage(const RunFolder& folder, const std::string& stage, double seco
   auto record = read_record(folder);
   if (!record["seconds"].is_object()) record["seconds"] = Json::object();
   record["seconds"][stage] = seconds;
+  // A run that has gone on since it was opened has other ranges.
+  if (record.value("frames", Json()) == Json(found.frames)) {
+    ValueRanges all = ranges_in(record);
+    all.insert(found.ranges.begin(), found.ranges.end());
+    if (!all.empty()) record["ranges"] = json_of(all);
+  }
   write_record(folder, record);
+}
+
+void renew_view(const RunFolder& folder, const ValueRanges& before) {
+  std::error_code unreachable;
+  if (!std::filesystem::exists(folder.view(), unreachable) || is_foreign_state(folder.view()) ||
+      status_of(folder) == "running")
+    return;
+  const std::string state = read_file(folder.view());
+  const ValueRanges now = recorded_ranges(folder);
+  const auto shows_new = [&](const auto& range) {
+    return !before.contains(range.first) &&
+           state.find('"' + range.first + ".PVLookupTable\"") != std::string::npos;
+  };
+  if (std::none_of(now.begin(), now.end(), shows_new)) return;
+  try {
+    write_view_state(folder.path, folder.view(), now);
+  } catch (const Error&) {
+    return;  // the one that is there still shows the run, in a range of its own
+  }
 }
 
 std::string status_of(const RunFolder& folder) {
@@ -83,6 +146,13 @@ std::string status_of(const RunFolder& folder) {
   const auto record = read_record(folder);
   const auto status = record.find("status");
   return status != record.end() && status->is_string() ? status->get<std::string>() : "";
+}
+
+std::vector<std::string> warnings_in(const Json& record) {
+  std::vector<std::string> warnings;
+  for (const Json& one : record.value("warnings", Json::array()))
+    if (one.is_string()) warnings.push_back(one);
+  return warnings;
 }
 
 std::string scene_name(const RunFolder& folder) {
@@ -100,7 +170,7 @@ std::string scene_name(const RunFolder& folder) {
 }
 
 std::string modulus_text(const nlohmann::ordered_json& entry) {
-  const auto pascals = [&](const char* key) { return three_digits(entry.value(key, 0.0)) + " Pa"; };
+  const auto pascals = [&](const char* key) { return quantity_text(entry.value(key, 0.0), "Pa"); };
   const std::string asked =
       entry.contains("young_modulus_asked") ? "; asked: " + pascals("young_modulus_asked") : "";
   return pascals("young_modulus") + ", by a stress of " + pascals("stress") + " at a strain of " +

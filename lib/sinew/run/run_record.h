@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <sinew/core/error.h>
+#include <sinew/core/value_range.h>
 #include <sinew/run/run_folder.h>
 
 namespace sinew {
@@ -21,11 +22,31 @@ void write_record(const RunFolder& folder, const nlohmann::ordered_json& record)
 
 /// seconds.STAGE of run.json; 0: not known. Throws bad input where that is not a record.
 double seconds_of(const RunFolder& folder, const std::string& stage);
-/// Writes seconds.STAGE into run.json, unless a run is in progress in the folder.
-void record_stage(const RunFolder& folder, const std::string& stage, double seconds);
+
+/// Ranges of quantities that were found in so many frames.
+struct FoundRanges {
+  ValueRanges ranges;
+  std::size_t frames = 0;
+};
+
+/// Writes seconds.STAGE into run.json, and those of the ranges that it has not yet if they are of
+/// all frames of the run, unless a run is in progress in the folder.
+void record_stage(const RunFolder& folder, const std::string& stage, double seconds,
+                  const FoundRanges& found);
+/// "ranges" of run.json: of quantities over all frames; empty where none have been found, or the
+/// record is damaged.
+ValueRanges recorded_ranges(const RunFolder& folder);
+nlohmann::ordered_json json_of(const ValueRanges& ranges);
+
+/// Writes the state for ParaView anew, with the run's ranges, where one that sinew has written is
+/// in the folder of a run that has ended and shows a quantity whose range was not known before.
+void renew_view(const RunFolder& folder, const ValueRanges& before);
 
 /// "status" of the run: running, finished, stopped, unstable, failed; "" without a record.
 std::string status_of(const RunFolder& folder);
+
+/// "warnings" of run.json: what is doubtful in the run, each with its cure, the shortest first.
+std::vector<std::string> warnings_in(const nlohmann::ordered_json& record);
 
 /// The name of the scene's file without its ending, from the command in run.json; the folder's
 /// where that has none, or only "scene".

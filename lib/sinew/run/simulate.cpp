@@ -10,6 +10,7 @@
 #include <sinew/core/json.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/fill/fill_warnings.h>
 #include <sinew/io/paraview/view_state.h>
 #include <sinew/run/detail/run_checkpoints.h>
 #include <sinew/run/detail/run_log.h>
@@ -30,6 +31,11 @@ namespace {
 
 void say(const SimulateOptions& options, const std::string& line) {
   if (options.message) options.message(line);
+}
+
+void warn(const std::string& what, const SimulateOptions& options, RunLog& log) {
+  log.warn(what);
+  if (options.warning) options.warning(what);
 }
 
 /// Whether the run that is in the folder is to be continued. Refuses to overwrite one unasked.
@@ -133,10 +139,10 @@ class Run {
     const StepChoice steps = prepared.steps;
     const Motion motion = prepared.motion;
     std::optional<VolumeCells> cells = cells_to_write(prepared);
-    if (cells && options_.warning)
+    if (cells)
       if (const auto lost = lost_by_cells(*cells, prepared.filled.particles,
                                           prepared.settings.material.density, prepared.surface))
-        options_.warning(*lost);
+        warn(*lost);
     FrameScene around{std::move(prepared.surface.triangles),
                       std::move(prepared.obstacles),
                       std::move(prepared.look),
@@ -218,9 +224,7 @@ class Run {
     }
   }
 
-  void warn(const std::string& what) const {
-    if (options_.warning) options_.warning(what);
-  }
+  void warn(const std::string& what) const { sinew::warn(what, options_, log_); }
 
   /// The reason why the run ends is not lost where closing fails as well.
   void close_after(const Error& reason) {
@@ -309,9 +313,9 @@ class Run {
     if (unbalanced_ || (left.force <= least && left.moment <= least * arm)) return;
     unbalanced_ = true;
     warn("at " + three_digits(time) + " s the forces on the body sum to " +
-         three_digits(left.force) + " N and " + three_digits(left.moment) +
-         " N m, where its equilibrium allows " + three_digits(found.tolerance) +
-         " N: do not trust this frame; set solver.precision to double, or make solver.residual "
+         quantity_text(left.force, "N") + " and " + three_digits(left.moment) +
+         " N m, where its equilibrium allows " + quantity_text(found.tolerance, "N") +
+         ": do not trust this frame; set solver.precision to double, or make solver.residual "
          "smaller");
   }
 
@@ -340,7 +344,7 @@ class Run {
     }
     if (limited.times > 0)
       what += "; speeds were limited " + std::to_string(limited.times) + " times, which took " +
-              three_digits(limited.energy) + " J (array limited)";
+              quantity_text(limited.energy, "J") + " (array limited)";
     if (!what.empty()) say(options_, what);
   }
 
@@ -352,7 +356,7 @@ class Run {
       const double force = load.force.norm(), from = force * load.scale.at(times[0]),
                    to = force * load.scale.at(times[1]);
       if (from != to)
-        text += ", at " + three_digits(from) + " to " + three_digits(to) + " N of load " +
+        text += ", at " + quantity_text(from, "N") + " to " + quantity_text(to, "N") + " of load " +
                 shown(load.name);
     }
     return text;
@@ -465,7 +469,8 @@ std::optional<SimulationState> state_to_resume(const RunFolder& folder,
   return state;
 }
 
-void say_what_is_doubtful(const Prepared& prepared, const SimulateOptions& options) {
+void say_what_is_doubtful(const Prepared& prepared, const RunFolder& folder,
+                          const SimulateOptions& options, RunLog& log) {
   if (const auto& relaxed = prepared.load_steps)
     say(options, "equilibria at " + std::to_string(relaxed->count) +
                      " moments, each to a residual of " + three_digits(relaxed->residual) +
@@ -478,11 +483,11 @@ void say_what_is_doubtful(const Prepared& prepared, const SimulateOptions& optio
   if (prepared.beginning.posed) say(options, prepared.beginning.why);
   if (!prepared.passing.empty())
     say(options, "flesh passes through flesh: " + intrusions_text(prepared.passing, prepared.body));
-  const double speed = farthest_carried(prepared);
-  std::vector<std::string> warnings = fill_warnings(prepared.filled);
-  for (std::string& warning : warnings_of(prepared, speed)) warnings.push_back(std::move(warning));
-  for (const std::string& warning : warnings)
-    if (options.warning) options.warning(warning);
+  const auto warnings = warnings_before_trials(prepared, farthest_carried(prepared));
+  for (const std::string& warning : warnings) warn(warning, options, log);
+  if (!warnings.empty())
+    say(options, counted(warnings.size(), "warning", "warnings") + " at the end, and in " +
+                     folder.log().string());
 }
 
 }  // namespace
@@ -519,7 +524,7 @@ RunResult simulate(const Settings& given, const RunFolder& folder, const Simulat
   log.describe(prepared);
   log.describe(identity);
   if (options.engine) log.describe(*options.engine);
-  say_what_is_doubtful(prepared, options);
+  say_what_is_doubtful(prepared, folder, options, log);
   const Exit exit =
       Run(scene, folder, options, log, checkpoints).to_end(std::move(prepared), state);
   return {exit, false, json_text(log.record())};

@@ -192,7 +192,8 @@ bool Relaxation::judge(const StepSums& sums) {
   now_.unbalanced = sums.imbalance.unbalanced;
   now_.applied = sums.imbalance.applied;
   if ((is_direct() || now_.iterations >= ramp()) && is_at_rest(sums.imbalance)) return true;
-  if (!is_direct() && !is_last_increment() && now_.iterations >= patience_between * ramp())
+  if (!is_direct() && !is_last_increment() &&
+      now_.iterations >= std::int64_t{patience_between} * ramp())
     return true;
   if (now_.spent + now_.iterations >= steps_.max_iterations) give_up();
   if (now_.best_at == 0 || now_.iterations <= ramp() || now_.unbalanced < progress * now_.best) {

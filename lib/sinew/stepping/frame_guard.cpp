@@ -23,6 +23,8 @@ constexpr double max_radii_of_snap = 1;
 constexpr double max_residual = 0.2;
 // Below the limit, since damping has less to slow then.
 constexpr double limited_to = 0.8 * max_radii_per_step;
+// What is slowed pushes its neighbors less, and is pushed by others: a few rounds settle a snap,
+// and a tenth of the particles in a frame is no snap but the body itself.
 constexpr int max_limits_in_step = 10;
 constexpr double max_limited = 0.1;  // fraction of the particles, in a frame
 
@@ -42,13 +44,13 @@ StepPlan plan_with(const StepPlan& whole, const GuardState& state) {
 }
 
 FrameGuard::FrameGuard(Simulation& simulation, StepPlan plan)
-    : simulation_(simulation), whole_(std::move(plan)), plan_(whole_) {}
+    : simulation_(simulation), steps_(simulation), whole_(std::move(plan)), plan_(whole_) {}
 
 void FrameGuard::begin(int frame) {
   frame_ = frame;
   const int carried = state_.divisor / 2;
   state_.divisor = 1;
-  simulation_.begin_counting();
+  steps_.begin_counting();
   be_lenient(false);
   SimulationState begun = simulation_.save();
   put_part(begun, guard_part, state_);
@@ -59,7 +61,7 @@ void FrameGuard::begin(int frame) {
 bool FrameGuard::is_there() const { return simulation_.steps() == plan_.steps_until(frame_); }
 
 void FrameGuard::step() {
-  if (simulation_.try_advance(1)) {
+  if (steps_.try_advance(1)) {
     limits_in_step_ = 0;
     if (is_there() && state_.lenient) check_balance();
     return;
@@ -70,7 +72,7 @@ void FrameGuard::step() {
   const bool snaps = finite && std::all_of(all.begin(), all.end(), [&](const Offender& one) {
                        return one.moved < max_radii_of_snap * simulation_.body().material.pair.r;
                      });
-  if (state_.divisor == 1 && simulation_.is_misjudged()) simulation_.fail();
+  if (state_.divisor == 1 && steps_.is_misjudged()) steps_.fail();
   if (state_.divisor < max_divisor) {
     if (!snaps || state_.lenient) return take_anew({frame_, 2 * state_.divisor, 0, true});
     const Balanced now = balance();
@@ -79,13 +81,13 @@ void FrameGuard::step() {
   } else if (finite) {
     limit_speeds();
   } else {
-    simulation_.fail();
+    steps_.fail();
   }
 }
 
 void FrameGuard::be_lenient(bool lenient) {
   state_.lenient = lenient;
-  simulation_.allow_moves(lenient ? max_radii_of_snap : max_radii_per_step);
+  steps_.allow_moves(lenient ? max_radii_of_snap : max_radii_per_step);
 }
 
 void FrameGuard::divide(int by) {
@@ -94,7 +96,7 @@ void FrameGuard::divide(int by) {
   divided.insert(divided.end(), {frame_, by});
   state_.divisor = by;
   plan_ = plan_with(whole_, state_);
-  simulation_.go_on_by(plan_);
+  steps_.go_on_by(plan_);
 }
 
 void FrameGuard::take_anew(const Retake& why) {
@@ -126,12 +128,12 @@ void FrameGuard::check_balance() {
 }
 
 void FrameGuard::limit_speeds() {
-  if (++limits_in_step_ > max_limits_in_step || simulation_.limit_offenders(limited_to) == 0)
-    simulation_.fail();
+  if (++limits_in_step_ > max_limits_in_step || steps_.limit_offenders(limited_to) == 0)
+    steps_.fail();
   const auto& times = simulation_.limited().in_frame;
   const auto concerned = std::count_if(times.begin(), times.end(), [](int of) { return of > 0; });
   if (static_cast<double>(concerned) > max_limited * static_cast<double>(times.size()))
-    simulation_.fail();
+    steps_.fail();
 }
 
 SimulationState FrameGuard::save() const {
@@ -148,9 +150,9 @@ void FrameGuard::restore(const SimulationState& state, int frame) {
   frame_ = frame;
   state_ = saved;
   plan_ = plan_with(whole_, state_);
-  simulation_.go_on_by(plan_);
+  steps_.go_on_by(plan_);
   simulation_.restore(state);
-  simulation_.go_on_by(plan_);
+  steps_.go_on_by(plan_);
   be_lenient(state_.lenient);
   begun_ = state.begun ? state.begun : std::make_shared<const SimulationState>(state);
 }

@@ -19,6 +19,7 @@
 
 #include <sinew/body/step_plan.h>
 #include <sinew/core/simulation_state.h>
+#include <sinew/stepping/guarded_steps.h>
 
 namespace sinew {
 
@@ -44,8 +45,6 @@ inline constexpr std::string_view guard_part = "guard";
 inline GuardState guard_in(const SimulationState& state) {
   return part_of<GuardState>(state, guard_part);
 }
-
-class Simulation;
 
 /// A frame that is taken anew.
 struct Retake {
@@ -96,6 +95,7 @@ class FrameGuard {
   double energy_of_offenders() const;
 
   Simulation& simulation_;
+  GuardedSteps steps_;
   StepPlan whole_, plan_;
   int frame_ = 0;
   GuardState state_;

@@ -6,37 +6,30 @@
 #include <limits>
 #include <utility>
 
-#include <sinew/analysis/instability.h>
-#include <sinew/body/ledger.h>
 #include <sinew/body/solid.h>
-#include <sinew/body/step_plan.h>
 #include <sinew/core/capabilities.h>
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/groups/make_grouping.h>
 #include <sinew/stepping/detail/cell_stepper.h>
-#include <sinew/stepping/detail/dynamic_grouping.h>
 #include <sinew/stepping/detail/list_stepper.h>
-#include <sinew/stepping/detail/load_increments.h>
+#include <sinew/stepping/detail/simulation_parts.h>
 #include <sinew/stepping/detail/speed_limits.h>
 #include <sinew/stepping/detail/step_totals.h>
 #include <sinew/stepping/equilibrium.h>
+#include <sinew/stepping/guarded_steps.h>
 #include <sinew/world/world.h>
 
 namespace sinew {
 namespace {
 
-Particles& checked(Particles& particles) {
+Particles checked(Particles particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (!is_computable(particles.position(i)))
       throw bad_input("particle " + std::to_string(particles.id[i]) +
                           " has a position that is too large or not finite",
                       "fill the body again");
   return particles;
-}
-
-bool moved_less(const Offender& a, const Offender& b) {
-  return a.finite != b.finite ? a.finite : a.moved < b.moved;
 }
 
 MakeStepper built_in(kernel::InstructionSet instructions) {
@@ -54,49 +47,6 @@ MakeStepper built_in(kernel::InstructionSet instructions) {
 
 }  // namespace
 
-struct Simulation::Impl {
-  Impl(Body given, Motion given_motion, Particles given_particles, const Stepping& first,
-       MakeStepper with)
-      : body(std::make_shared<Body>(std::move(given))),
-        motion(std::make_shared<const Motion>(std::move(given_motion))),
-        cursor(body->skeleton, *motion),
-        stepping(first),
-        plan(first.step),
-        unit_of_time(first.step),
-        make(std::move(with)),
-        stepper(make(body, first, checked(given_particles))),
-        ledger(first.step),
-        world_ledger(first.step),
-        particles(std::move(given_particles)) {}
-
-  std::shared_ptr<Body> body;  ///< whose grouping may change
-  std::uint64_t checksum = hash_of(*body).value();
-  std::shared_ptr<const Motion> motion;
-  PoseCursor cursor;
-  Stepping stepping;  ///< with the step made last
-  StepPlan plan;
-  std::int64_t plan_from = 0;  ///< the step at which the plan begins, and its time, s
-  double plan_since = 0;
-  double unit_of_time;  ///< time unit of velocities in single precision, s
-  std::int64_t steps = 0;
-  MakeStepper make;
-  std::unique_ptr<Stepper> stepper;
-  std::unique_ptr<LoadIncrements> increments;  ///< increments of what is brought to rest
-  std::unique_ptr<DynamicGrouping> dynamic;
-  EnergyLedger ledger, world_ledger;
-  double held_at_start = 0;  ///< kinetic energy of what pins hold, J
-  LimitedSpeeds limited;
-
-  std::vector<Offender> offenders;
-  std::vector<TimedPose> moments;  ///< memory of those of the steps
-  std::vector<StepSums> sums;      ///< the same
-  Particles particles;  ///< particles as read last; radius, mass and ids are always valid
-  bool read = false;    ///< whether they are those of the present moment
-  Forces forces;
-  Balance balance;
-  bool evaluated = false;
-};
-
 Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
                        kernel::InstructionSet instructions)
     : Simulation(std::move(body), std::move(motion), std::move(particles), stepping,
@@ -104,7 +54,7 @@ Simulation::Simulation(Body body, Motion motion, Particles particles, const Step
 
 Simulation::Simulation(Body body, Motion motion, Particles particles, const Stepping& stepping,
                        MakeStepper make)
-    : its_(std::make_unique<Impl>(std::move(body), std::move(motion), std::move(particles),
+    : its_(std::make_unique<Impl>(std::move(body), std::move(motion), checked(std::move(particles)),
                                   stepping, std::move(make))) {
   forget_read();
 }
@@ -170,23 +120,37 @@ void Simulation::set_time_step(double step) {
 }
 
 void Simulation::set_material(const Material& material) {
+  check_variant(its_->body->material, material);
+  Body body = *its_->body;
+  body.material = material;
+  change(std::move(body), "material");
+}
+
+void Simulation::set_world(std::shared_ptr<const World> world) {
+  Body body = *its_->body;
+  body.world = std::move(world);
+  change(std::move(body), "world");
+}
+
+/// The body with another `what`, which goes on as it is.
+void Simulation::change(Body body, const char* what) {
   if (its_->body->grouping || its_->dynamic)
-    throw bad_input("groups of particles are made for one material, which another cannot replace",
+    throw bad_input(std::string("groups of particles are made for one ") + what +
+                        ", which another cannot replace",
                     "set hierarchy.enabled to false");
   if (its_->increments)
-    throw bad_input("a body that is brought to rest has the material that it began with",
-                    "begin a simulation of that material");
-  check_variant(its_->body->material, material);
+    throw bad_input(
+        std::string("a body that is brought to rest has the ") + what + " that it began with",
+        std::string("begin a simulation of that ") + what);
   const SimulationState state = save();
   Particles particles = take_particles();
   Stepping first = its_->stepping;
   first.step = its_->unit_of_time;
-  auto body = std::make_shared<Body>(*its_->body);
-  body->material = material;
-  std::unique_ptr<Stepper> stepper = its_->make(body, first, particles);
+  auto changed = std::make_shared<Body>(std::move(body));
+  std::unique_ptr<Stepper> stepper = its_->make(changed, first, particles);
   stepper->set_step(its_->stepping.step);
   stepper->restore(state);
-  its_->body = std::move(body);
+  its_->body = std::move(changed);
   its_->cursor = PoseCursor(its_->body->skeleton, *its_->motion);
   its_->stepper = std::move(stepper);
   its_->evaluated = false;
@@ -223,39 +187,10 @@ void Simulation::change_step(double step) {
   set_step(step);
 }
 
-void Simulation::go_on_by(StepPlan plan) { its_->plan = std::move(plan); }
-
-void Simulation::allow_moves(double radii) { its_->stepper->allow_moves(radii); }
-
-std::size_t Simulation::limit_offenders(double radii) {
-  const double before = energies().stored();
-  const SpeedChange change = slowed(*its_->body, pose(), particles(), its_->forces, its_->stepping,
-                                    its_->offenders, radii);
-  if (change.particles.empty()) return 0;
-  add_to_velocities(1, [&](std::size_t i) { return change.gain[i]; });
-  its_->evaluated = false;
-  const double lost = before + change.work - energies().stored();
-  its_->ledger.add(change.work, lost);
-  LimitedSpeeds& limited = its_->limited;
-  limited.in_frame.resize(change.gain.size());
-  for (const std::size_t i : change.particles) ++limited.in_frame[i];
-  limited.times += static_cast<std::int64_t>(change.particles.size());
-  limited.energy += lost;
-  limited.impulse += change.impulse;
-  return change.particles.size();
-}
-
 const LimitedSpeeds& Simulation::limited() const { return its_->limited; }
-void Simulation::begin_counting() { its_->limited.in_frame.clear(); }
-
-bool Simulation::is_misjudged() {
-  evaluate();
-  return is_of_all_steps({*its_->body, pose(), time(), particles(), its_->forces, its_->stepping},
-                         worst_offender().particle);
-}
 
 void Simulation::advance(std::int64_t steps) {
-  if (!try_advance(steps)) fail();
+  if (!try_advance(steps)) GuardedSteps(*this).fail();
 }
 
 bool Simulation::try_advance(std::int64_t steps) {
@@ -381,18 +316,6 @@ void Simulation::take(NewGroups made) {
 void Simulation::forget_read() const {
   free_motion(its_->particles);
   its_->read = false;
-}
-
-const Offender& Simulation::worst_offender() const {
-  return *std::max_element(its_->offenders.begin(), its_->offenders.end(), moved_less);
-}
-
-void Simulation::fail() {
-  const Offender& worst = worst_offender();
-  evaluate();
-  throw unstable(
-      {*its_->body, pose(), time(), particles(), its_->forces, its_->stepping, its_->steps},
-      worst.particle, worst.finite);
 }
 
 const Particles& Simulation::particles() const {

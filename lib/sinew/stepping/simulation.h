@@ -96,6 +96,9 @@ class Simulation {
   /// become of them stay. Throws bad input for another model, size or mass of particles, other
   /// neighbors at rest, and where there are groups of particles.
   void set_material(const Material& material);
+  /// Surrounds the body with another world from now on. Throws bad input where there are groups of
+  /// particles.
+  void set_world(std::shared_ptr<const World> world);
 
   // Motion.
 
@@ -105,27 +108,8 @@ class Simulation {
   /// The particles stay where they were before the step; bonds that broke in it stay broken.
   void step() { advance(1); }
   void advance(std::int64_t steps);
-  /// The same, but returns false at a step that fails.
-  bool try_advance(std::int64_t steps);
-  /// Throws because of the worst of the offenders.
-  [[noreturn]] void fail();
-  /// Lists those of the step that failed, in the order of the particles.
+  /// Particles that moved too far in the step that failed, in the order of the particles.
   const std::vector<Offender>& offenders() const;
-  /// What they did tells that all steps are too long, or gravity in a wrong unit.
-  bool is_misjudged();
-
-  // For who tries steps again (frame_guard.h).
-
-  /// Goes on by a plan in which the steps so far are the same.
-  void go_on_by(StepPlan plan);
-  /// Lets particles move so far in a step, in radii, before it fails.
-  void allow_moves(double radii);
-  /// Slows the offenders, relative to their bones, so that each will move about that far in the
-  /// next step, in radii; returns how many. The loss is part of the dissipation, and the work that
-  /// their bones do on them part of the bones'.
-  std::size_t limit_offenders(double radii);
-  const LimitedSpeeds& limited() const;
-  void begin_counting();  ///< starts `in_frame` anew
 
   // The present moment.
 
@@ -158,6 +142,8 @@ class Simulation {
   /// Energy lost where particles joined groups, J; part of the dissipation.
   double lost_by_merging() const;
   std::int64_t regroupings() const;
+  /// What a guard's limits of speed have taken (frame_guard.h).
+  const LimitedSpeeds& limited() const;
   /// How often neighbor lists were built; zeros for the cell stepper.
   ListCounts list_counts() const;
 
@@ -190,8 +176,11 @@ class Simulation {
   void restore(const SimulationState& state);
 
  private:
+  friend class GuardedSteps;
   struct Impl;
 
+  void change(Body body, const char* what);
+  bool try_advance(std::int64_t steps);
   void evaluate();
   double mass(std::size_t i) const;
   std::int64_t steps_of_one_size(std::int64_t most) const;
@@ -206,7 +195,6 @@ class Simulation {
   void set_step(double step);
   void change_step(double step);
   void add_to_velocities(double by, const std::function<Vec3(std::size_t i)>& gain);
-  const Offender& worst_offender() const;
   Vec3 acceleration(std::size_t i) const;
 
   std::unique_ptr<Impl> its_;

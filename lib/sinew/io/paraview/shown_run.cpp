@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/core/local_origin.h>
 #include <sinew/core/text.h>
 #include <sinew/core/triangles.h>
+#include <sinew/core/value_range.h>
 #include <sinew/io/series.h>
 #include <sinew/io/series_table.h>
 #include <sinew/io/vtu.h>
@@ -20,8 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t min_samples = 2, max_samples = 12;
 constexpr std::size_t max_particles_read = 4'000'000;  // in some seconds
-constexpr double outliers = 0.01;  ///< fraction of the values beyond each end of the color scale
-constexpr double rounding = 1e-9;  ///< rounding: the body is at rest
+constexpr double rounding = 1e-9;                      ///< rounding: the body is at rest
 
 /// Frames spread over the run, the first and the last included; fewer of large ones.
 std::vector<std::size_t> samples(std::size_t frames, std::size_t points) {
@@ -72,14 +73,6 @@ std::vector<double> magnitudes(const Column& column) {
       column.values);
 }
 
-double quantile(std::vector<double>& values, double fraction) {
-  const auto place =
-      static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
-                   values.end());
-  return values[place];
-}
-
 [[noreturn]] void refuse_array(const Dataset& frame, const std::string& name) {
   std::vector<std::string_view> names;
   for (const Column& column : frame.point_columns) names.push_back(column.name);
@@ -114,26 +107,31 @@ void choose_arrays(ShownRun& run, const fs::path& file, const ViewOptions& optio
 class ColorRange {
  public:
   void add(const Column& column, double time, double& moment) {
-    std::vector<double> values = magnitudes(column);
-    if (values.empty()) return;
-    const double high = quantile(values, 1 - outliers);
-    if (high > high_) moment = time;
-    high_ = std::max(high_, high);
-    low_ = std::min(low_, quantile(values, outliers));
+    const std::vector<double> values = magnitudes(column);
+    RangeFinder here;
+    here.add(values), all_.add(values);
+    if (here.range().high > highest_) moment = time, highest_ = here.range().high;
   }
 
+  /// The range of the options, else the one known for the run, else that of the frames read here.
   /// Numbers of an array of which all are alike are not known to grow.
-  void put(ShownRun& run) const {
-    run.grows = !(high_ - low_ > rounding * std::max(1.0, std::abs(high_)));
-    if (run.grows) return;
-    run.range = {low_ >= 0 && low_ < 0.25 * high_ ? 0 : low_, high_};
+  void put(ShownRun& run, const ViewOptions& options) const {
+    const auto known = options.ranges.find(quantity_of(run.array));
+    const ValueRange range = options.range                   ? *options.range
+                             : known != options.ranges.end() ? known->second
+                                                             : all_.range();
+    run.grows = !options.range &&
+                !(range.high - range.low > rounding * std::max(1.0, std::abs(range.high)));
+    if (!run.grows) run.range = range;
   }
 
  private:
-  double low_ = INFINITY, high_ = -INFINITY;
+  RangeFinder all_;
+  double highest_ = -std::numeric_limits<double>::infinity();
 };
 
-void read_particles(ShownRun& run, const std::vector<PvdRow>& rows, std::size_t particles) {
+void read_particles(ShownRun& run, const std::vector<PvdRow>& rows, std::size_t particles,
+                    const ViewOptions& options) {
   ColorRange range;
   for (const std::size_t k : samples(rows.size(), particles)) {
     const Dataset frame =
@@ -146,7 +144,7 @@ void read_particles(ShownRun& run, const std::vector<PvdRow>& rows, std::size_t 
     if (forces == nullptr) continue;
     for (const double force : magnitudes(*forces)) run.strongest = std::max(run.strongest, force);
   }
-  range.put(run);
+  range.put(run, options);
 }
 
 void read_supports(ShownRun& run) {
@@ -220,7 +218,7 @@ ShownRun shown_run(const fs::path& folder, const ViewOptions& options) {
   run.rest = {run.corners.at(0), run.corners[7]};
   run.radius = numbers(rest.point_columns, "radius").at(0);
   choose_arrays(run, run.folder / rows[0].file, options);
-  read_particles(run, rows, rest.points.size());
+  read_particles(run, rows, rest.points.size(), options);
   if (run.has("supports")) read_supports(run);
   choose_cells(run);
   run.has_bones = first_frame(run, "bones").cells() > 0;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <sinew/core/value_range.h>
 #include <sinew/core/vector.h>
 
 namespace sinew {
@@ -24,6 +25,8 @@ struct ViewOptions {
   std::optional<std::string> forces = {};  ///< array of the arrows; "": force_pair
   std::optional<double> time = {};         ///< s; none: when the array is largest
   double aspect = 1;                       ///< width over height of each of the two views
+  std::optional<ValueRange> range = {};    ///< range of the colors; none: the run's
+  ValueRanges ranges = {};                 ///< ranges of the run's quantities, as far as known
   bool live = false;  ///< follows the run by the plugin's source SinewSeries, with room to bend
 };
 
@@ -38,16 +41,16 @@ struct ShownRun {
   double radius = 0;        ///< radius of the particles, m
   bool can_be_cut = false;  ///< the frames tell where particles were at rest
   bool has_bones = false;
-  bool has_cells = false;             ///< the series `volume` has the array
-  bool skin_has_array = false;        ///< and so has the series `surface`
-  std::string array, unit;            ///< array that colors body and skin
-  int components = 1;                 ///< number of its components
-  std::array<double, 2> range{0, 1};  ///< range of its values, without the hundredth farthest out
-  bool grows = false;    ///< the range is not known yet: there is only the body at rest
-  double moment = 0;     ///< to begin with, s
-  std::string forces;    ///< shown as arrows; "" where the frames lack them
-  double strongest = 0;  ///< the largest of these, N
-  double hardest = 0;    ///< the largest force of a support or a load, N
+  bool has_cells = false;       ///< the series `volume` has the array
+  bool skin_has_array = false;  ///< and so has the series `surface`
+  std::string array, unit;      ///< array that colors body and skin
+  int components = 1;           ///< number of its components
+  ValueRange range{0, 1};       ///< range of its values
+  bool grows = false;           ///< the range is not known yet: there is only the body at rest
+  double moment = 0;            ///< to begin with, s
+  std::string forces;           ///< shown as arrows; "" where the frames lack them
+  double strongest = 0;         ///< the largest of these, N
+  double hardest = 0;           ///< the largest force of a support or a load, N
 
   bool has(const std::string& name) const;
   /// Longest side of the box around all corners, m.

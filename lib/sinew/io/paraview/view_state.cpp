@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include <sinew/core/color.h>
 #include <sinew/core/error.h>
 #include <sinew/core/file.h>
 #include <sinew/io/paraview/detail/view_pipeline.h>
@@ -13,24 +14,16 @@
 namespace sinew {
 namespace {
 
-using Color = std::vector<double>;
+using Numbers = std::vector<double>;
 
 constexpr const char* mark = "<!-- written by sinew: sinew view writes it anew -->\n";
 constexpr const char* version = "5.10.0";
 
-const Color ink = {0.16, 0.18, 0.22}, paper = {0.98, 0.98, 0.99}, paper_top = {0.86, 0.89, 0.93};
-const Color skin = {0.55, 0.71, 0.86}, edge = {0.20, 0.33, 0.47}, bone = {0.98, 0.93, 0.80};
-const Color obstacle = {0.62, 0.60, 0.58}, force = {0.86, 0.30, 0.10};
+const Numbers ink = {0.16, 0.18, 0.22}, paper = {0.98, 0.98, 0.99}, paper_top = {0.86, 0.89, 0.93};
+const Numbers skin = {0.55, 0.71, 0.86}, edge = {0.20, 0.33, 0.47}, bone = {0.98, 0.93, 0.80};
+const Numbers obstacle = {0.62, 0.60, 0.58}, force = {0.86, 0.30, 0.10};
 /// Colors of the axes x, y, z of a bone.
-const Color axes = {0.88, 0.15, 0.17, 0.13, 0.62, 0.24, 0.13, 0.36, 0.92};
-/// Fraction of the range, red, green, blue: lightness increases with the value, and the lowest
-/// color still shows the spheres' shading.
-constexpr std::array<std::array<double, 4>, 5> colors = {{{0.0, 0.27, 0.33, 0.62},
-                                                          {0.25, 0.17, 0.52, 0.70},
-                                                          {0.5, 0.25, 0.71, 0.60},
-                                                          {0.75, 0.67, 0.83, 0.38},
-                                                          {1.0, 0.99, 0.84, 0.22}}};
-
+const Numbers axes = {0.88, 0.15, 0.17, 0.13, 0.62, 0.24, 0.13, 0.36, 0.92};
 /// A sphere lit from the upper left on each splat; fragments outside its outline are discarded.
 constexpr const char* sphere = R"(//VTK::Color::Impl
 vec2 at = offsetVCVSOutput.xy;
@@ -43,6 +36,8 @@ ambientColor = ambientColor * (0.25 + 0.75 * light) + vec3(shine);
 diffuseColor = diffuseColor * (0.25 + 0.75 * light) + vec3(shine);
 )";
 
+constexpr int color_steps = 16;  // colors of pictures, between which ParaView interpolates
+
 // Numbers of ParaView's enumerations.
 constexpr double lab = 2, magnitude = 0, custom_shader = 6, gradient = 1;
 constexpr double snap_to_timesteps = 2;
@@ -52,7 +47,7 @@ constexpr double height = 1000;  ///< pixels of a view that is in no window: let
 constexpr double skin_opacity = 0.45, bare_skin_opacity = 0.2;
 constexpr double upper_left = 4, lower_center = 3, horizontal = 0, any_place = 0;
 
-Color of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Numbers of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// The state under construction: sources that are there already, and what both views show.
 class Show {
@@ -91,7 +86,7 @@ class Show {
 
   /// In one color.
   StateProxy& shape(const std::string& name, const char* type, const StateProxy& input,
-                    const Color& color, double opacity = 1) {
+                    const Numbers& color, double opacity = 1) {
     return representation(name, type, input)
         .text("Representation", {"Surface"})
         .array("ColorArrayName", false, "")
@@ -143,8 +138,12 @@ class Show {
   StateProxy& color_table() {
     const auto [low, high] = run_.range;
     std::vector<double> points;
-    for (const auto& [fraction, red, green, blue] : colors)
-      points.insert(points.end(), {low + fraction * (high - low), red, green, blue});
+    for (int k = 0; k <= color_steps; ++k) {
+      const double fraction = double(k) / color_steps;
+      const auto [red, green, blue] = mapped_color(fraction);
+      points.insert(points.end(),
+                    {low + fraction * (high - low), red / 255.0, green / 255.0, blue / 255.0});
+    }
     table_ =
         &state_
              .add("lookup_tables", "PVLookupTable", "lookup_tables", run_.array + ".PVLookupTable")
@@ -229,7 +228,7 @@ class Show {
     shown.push_back(&as_spheres(heads, 1.8 * bone_radius(run_)));
   }
 
-  StateProxy& note(const StateProxy& input, const Color& color, double place) {
+  StateProxy& note(const StateProxy& input, const Numbers& color, double place) {
     return representation("note", "TextSourceRepresentation", input)
         .numbers("Color", color)
         .number("FontSize", 20)
@@ -322,8 +321,9 @@ std::string view_state(const ShownRun& run, const ViewOptions& options, CameraLi
   return Show(run, options, links).text();
 }
 
-void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  write_file(file, view_state(shown_run(folder, {})));
+void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file,
+                      const ValueRanges& ranges) {
+  write_file(file, view_state(shown_run(folder, {.ranges = ranges})));
 }
 
 bool is_foreign_state(const std::filesystem::path& file) {

@@ -17,9 +17,10 @@ namespace sinew {
 std::string view_state(const ShownRun& run, const ViewOptions& options = {},
                        CameraLinks links = CameraLinks::none);
 
-/// Writes it as `file`, for any version of ParaView. Throws bad input where the folder has no
-/// frame, and not written.
-void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file);
+/// Writes it as `file`, for any version of ParaView, with the run's `ranges` as far as known.
+/// Throws bad input where the folder has no frame, and not written.
+void write_view_state(const std::filesystem::path& folder, const std::filesystem::path& file,
+                      const ValueRanges& ranges = {});
 
 /// Whether there is such a file that view_state() has not written, or that cannot be read.
 bool is_foreign_state(const std::filesystem::path& file);

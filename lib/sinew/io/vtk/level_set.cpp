@@ -222,6 +222,17 @@ void check_faces(const Padded& image, std::size_t bytes) {
                     "smooth the image, or subtract another level from it");
 }
 
+/// Shifts values of one sign so that halfway is zero; returns what is said of it, or "".
+std::string with_level(LevelSet& image) {
+  const auto [lowest, highest] = std::minmax_element(image.values.begin(), image.values.end());
+  const double low = *lowest, high = *highest, halfway = low + (high - low) / 2;
+  if ((low < 0 && high >= 0) || !(low < halfway && halfway < high)) return {};
+  for (double& value : image.values) value -= halfway;
+  return "all values of the image are from " + three_digits(low) + " to " + three_digits(high) +
+         ": the surface is halfway, at " + three_digits(halfway) +
+         "; subtract another level from them if it is elsewhere";
+}
+
 }  // namespace
 
 Error no_surface(double low, double high) {
@@ -235,8 +246,9 @@ void move_to_cells(LevelSet& image) {
   image.origin += image.axes * Vec3::Constant(0.5);
 }
 
-PolygonSoup zero_level(const LevelSet& image) {
+PolygonSoup zero_level(LevelSet image) {
   check(image);
+  const std::string level = with_level(image);
   const Padded padded(image);
   if (padded.samples_inside() == 0) {
     const auto [low, high] = std::minmax_element(image.values.begin(), image.values.end());
@@ -244,10 +256,12 @@ PolygonSoup zero_level(const LevelSet& image) {
   }
   check_faces(padded, image.bytes);
   PolygonSoup soup = Contour(padded).soup();
+  soup.warning = level;
   if (padded.samples_cut() > 0)
-    soup.warning = "the body reaches the border of its image, at " +
-                   std::to_string(padded.samples_cut()) +
-                   " samples, and is cut off and closed there; give a larger image if it goes on";
+    soup.warning += std::string(level.empty() ? "" : "; ") +
+                    "the body reaches the border of its image, at " +
+                    std::to_string(padded.samples_cut()) +
+                    " samples, and is cut off and closed there; give a larger image if it goes on";
   return soup;
 }
 

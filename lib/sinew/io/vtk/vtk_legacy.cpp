@@ -454,7 +454,7 @@ PolygonSoup surface_of(Content content) {
   if (samples != static_cast<double>(image.values.size()))
     throw damaged("the image has " + std::to_string(image.values.size()) + " values of " +
                   number_text(samples));
-  return zero_level(image);
+  return zero_level(std::move(image));
 }
 
 }  // namespace

@@ -202,11 +202,11 @@ PolygonSoup surface_of_image(const VtkXmlFile& file) {
       [&](const auto& values) {
         if (values.empty()) return;
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
-        if (*low >= 0 || *high < 0) throw no_surface(*low, *high);
+        if (*low == *high) throw no_surface(*low, *high);
         image.values.assign(values.begin(), values.end());
       },
       scalars.values);
-  return zero_level(image);
+  return zero_level(std::move(image));
 }
 
 /// What is told of a file with several moments; arrays of the first precede those of others.

@@ -13,6 +13,7 @@
 #include <sinew/io/series_table.h>
 #include <sinew/run/run_record.h>
 #include <sinew/scene/check/stiffness.h>
+#include <sinew/scene/check/warnings.h>
 #include <sinew/settings/table.h>
 
 namespace sinew {
@@ -98,7 +99,7 @@ std::uint64_t size_of(const std::filesystem::path& file) {
 
 /// Restores the times that a resumed run has spent and when it began.
 void go_on_from(const Json& before, Json& record) {
-  for (const char* key : {"started", "seconds", "load_steps"})
+  for (const char* key : {"started", "seconds", "load_steps", "warnings"})
     if (before.contains(key)) record[key] = before[key];
   record["resumed"] = 1 + before.value("resumed", 0);
 }
@@ -226,6 +227,15 @@ void RunLog::describe(const Engine& engine) {
 void RunLog::describe(const EngineSteps& steps) {
   record_["particles_on_ranks"] = steps.moment().particles;
   record_["engine_version"] = steps.moment().engine;
+}
+
+void RunLog::warn(const std::string& what) {
+  std::vector<std::string> all = warnings_in(record_);
+  if (std::find(all.begin(), all.end(), what) != all.end()) return;
+  all.push_back(what);
+  shortest_first(all);
+  record_["warnings"] = std::move(all);
+  log("warning: " + what);
 }
 
 void RunLog::spend(const std::string& stage, double seconds) {

@@ -34,6 +34,8 @@ class RunLog {
 
   void describe(const EngineSteps& steps);  ///< how evenly its ranks share the particles
 
+  /// Adds to "warnings", the shortest first, what is not yet there.
+  void warn(const std::string& what);
   /// Adds to the seconds of a stage.
   void spend(const std::string& stage, double seconds);
   /// Writes run.json with the progress of the run. Throws not written.

@@ -61,7 +61,8 @@ class Pipeline {
                            .text("Series", {name});
     if (name == "particles") live.text("Colors", {run_.array});
     if (name == "particles" && !run_.grows)
-      live.numbers("ColorRange", {run_.range[0], run_.range[1]});
+      live.numbers("ColorRange", {run_.range.low, run_.range.high})
+          .number("FixedRange", options_.range ? 1 : 0);
     if (name != "particles" && name != "supports") return live;
     return live.text("Vectors", {name == "supports" ? "force" : run_.forces})
         .number("ArrowLength", arrow_fraction * run_.size());
@@ -193,7 +194,7 @@ class Pipeline {
     return source("sources", "TextSource", "length of arrows")
         .text("Text", {run_.forces + (options_.live ? of_live
                                                     : ": the longest arrow at any time is " +
-                                                          three_digits(run_.strongest) + " N")});
+                                                          quantity_text(run_.strongest, "N"))});
   }
 
   StateFile& state_;

@@ -57,16 +57,17 @@ struct LevelSet {
 /// Values at the centers of the cells of an image, which has a sample less along each axis.
 void move_to_cells(LevelSet& image);
 
-/// For an image whose values have one sign, from `low` to `high`.
+/// For an image whose values reach from `low` to `high` and enclose nothing.
 Error no_surface(double low, double high);
 
 /// Quadrilaterals around what has the sign that fewer samples of the image's border have (where
 /// that is none at all, the other sign): one corner in each cell through which the surface passes,
-/// moved to the zero level of the trilinear interpolation, as in dual contouring. Where the inside
-/// reaches the border, the surface is closed along it, with a warning. Throws bad input for images
-/// of fewer than two samples along an axis, values that are not finite, where none is inside, and
-/// where the surface passes through so many cells that it is of noise.
-PolygonSoup zero_level(const LevelSet& image);
+/// moved to the zero level of the trilinear interpolation, as in dual contouring. Where all values
+/// have one sign, as in CT and MRI, the level halfway between the extremes serves, with a warning.
+/// Where the inside reaches the border, the surface is closed along it, with a warning. Throws bad
+/// input for images of fewer than two samples along an axis, values that are not finite, where none
+/// is inside, and where the surface passes through so many cells that it is of noise.
+PolygonSoup zero_level(LevelSet image);
 
 // Legacy files (.vtk), as text or binary, of versions up to 5.
 
