@@ -5,12 +5,13 @@
 usage: make_gallery.py SINEW RUNS [NAME ...]     SINEW: the program build/bin/sinew; RUNS: a folder that keeps
                                                  the runs, so that a second call only draws; NAME: only these
                                                  pictures. Needs Debian's ffmpeg, python3-pil, python3-matplotlib,
-                                                 paraview, libqt5svg5 and chromium
+                                                 paraview, libqt5svg5 and chromium-driver
 """
 import os
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 from PIL import Image
@@ -18,6 +19,9 @@ from PIL import Image
 import paper_figures
 
 DATA = Path(__file__).resolve().parent
+sys.path.append(str(DATA.parent / "tests/tools"))
+from page_driver import Browser  # noqa: E402
+
 CONFIGS = DATA.parent / "configs"
 SCREENSHOT = DATA.parent / "tests/campaigns/screenshot.sh"
 # run: scene, and what of it is set otherwise
@@ -112,6 +116,42 @@ def draw_report(sinew, runs):
         keep(picture, "report")
 
 
+def draw_play(sinew, _):
+    """The page of a session, wide and narrow, while the skin of a forearm is pulled at."""
+    middle = """(() => { const ends = live.view.playback.bones, end = (k) => new THREE.Vector3().fromArray(ends, 12 + k);
+        const [x, y] = pixelsOf(live.view, end(0).add(end(3)).multiplyScalar(0.5));
+        const box = byId("stage").getBoundingClientRect(); return [x + box.left, y + box.top]; })()"""
+    with tempfile.TemporaryDirectory() as folder:
+        words = ["play", CONFIGS / "arm_bend.yaml", "--set", "material.model=bonded", "-o", folder, "--no-browser"]
+        session = subprocess.Popen([sinew, *words], stdout=subprocess.PIPE, text=True)
+        address = session.stdout.readline().split()[1]
+        with Browser(1400, 860) as page:
+            page.open(address)
+            page.run("sinew.ready")
+            while page.run("sinew.state().time") < 0.7:
+                time.sleep(0.1)
+            page.run("tell({ do: 'pause' })")
+            time.sleep(1)
+            page.run("wholeView(live.view)")
+            x, y = page.run(middle)
+            page.run("tell({ do: 'play' })")
+            page.drag([(x, y), (x + 90, y + 40)], seconds=1, release=False)
+            start = page.run("sinew.state().time")
+            while page.run("sinew.state().time") < start + 0.5:
+                time.sleep(0.1)
+            page.run("tell({ do: 'pause' })")
+            for width, height, name in ((1400, 860, "play"), (420, 900, "play_narrow")):
+                page.resize(width, height)
+                time.sleep(1)
+                if width < 600:
+                    page.run("wholeView(live.view)")
+                    time.sleep(1)
+                page.picture(Path(folder) / "page.png")
+                keep(Path(folder) / "page.png", name)
+        session.terminate()
+        session.wait()
+
+
 def draw_range(sinew, _):
     """Figure 1 of the paper."""
     paper_figures.interaction_range(sinew, CONFIGS / "paper_gap.yaml", 2.1, 2.6, DATA / "pictures/paper_figure_1.png")
@@ -125,7 +165,7 @@ def draw_force(sinew, _):
 
 def main():
     sinew, runs = (Path(place).resolve() for place in sys.argv[1:3])
-    others = {"arm_moving": draw_movie, "paraview": draw_window, "report": draw_report, "paper_figure_1": draw_range,
+    others = {"arm_moving": draw_movie, "paraview": draw_window, "report": draw_report, "play": draw_play, "paper_figure_1": draw_range,
               "paper_figure_2": draw_force}
     for name in sys.argv[3:] or [*PICTURES, *others]:
         if name in others:

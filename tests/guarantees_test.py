@@ -11,7 +11,7 @@ import tempfile
 from pathlib import Path
 
 # What needs packages that may be missing, or is built on request.
-OPTIONAL = {"lammps", "sanitized", "tools.engine", "tools.hosts", "tools.python"}
+OPTIONAL = {"lammps", "sanitized", "tools.engine", "tools.hosts", "tools.api", "tools.arrays", "tools.python", "tools.tutorials"}
 
 
 def entries(build):

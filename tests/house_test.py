@@ -29,18 +29,20 @@ ARROWS = {
                    "scene", "run"},
     "figures": {"core", "settings", "volume", "rig", "material", "body", "world", "io", "scene", "metrics", "render", "run"},
     "study": {"core", "settings", "mesh", "repair", "io", "scene", "metrics", "run"},
+    "play": {"core", "settings", "mesh", "rig", "material", "body", "world", "stepping", "scene", "metrics", "run"},
 }
 # Rooms whose headers are not installed -> those that are.
 INTERNAL = {"kernel": ("instruction_set.h",), "lists": ("list_counts.h",), "lammps": (),
             "groups": ("bone_assemblies.h", "kept_free.h", "make_grouping.h", "static_groups.h")}
 # Pattern of an include -> the places that may have it: a room (its .cpp files only) or one file.
 HEAVY = {
-    r"(CGAL|boost)/": ("mesh", "repair", "fill", "volume"),
+    r"CGAL/": ("mesh", "repair", "fill", "volume"),
+    r"boost/": ("mesh", "repair", "fill", "volume", "study/sweep/design.cpp", "play/server.cpp"),
     r"vtk\w*\.h": ("render", "vtk", "render/detail/shapes.h", "vtk/data_sets.h"),
     r"yaml-cpp/": ("settings",),
     r"(tbb|oneapi)/": ("core/threads_tbb.cpp",),
-    r"nlohmann/json\.hpp": ("core/json.cpp", "io", "metrics", "scene", "run", "inspection", "study", "run/detail/run_log.h"),
-    r"(libdeflate|lz4|expat)\.h": ("io",),
+    r"nlohmann/json\.hpp": ("core/json.cpp", "io", "metrics", "scene", "run", "inspection", "study", "play", "run/detail/run_log.h"),
+    r"(libdeflate|lz4|expat|meshoptimizer)\.h|draco/": ("io",),
     r"X11/": ("display",),
     r"(lammps|fmt)/": ("lammps", "lammps/lammps_headers.h"),
     r"mpi\.h": ("lammps",),
@@ -52,8 +54,8 @@ HEAVY_TARGETS = {
     r"VTK::": ("render", "vtk"),
     r"yaml-cpp": ("settings",),
     r"TBB::": ("core",),
-    r"nlohmann_json::": ("core", "io", "metrics", "scene", "run", "inspection", "study"),
-    r"^(deflate|lz4|expat)$": ("io",),
+    r"nlohmann_json::": ("core", "io", "metrics", "scene", "run", "inspection", "study", "play"),
+    r"^(deflate|lz4|expat|meshoptimizer|draco)$": ("io",),
     r"X11::": ("display",),
     r"LAMMPS::|fmt::": ("lammps",),
     r"CLI11::": (),

@@ -9,12 +9,12 @@
 
 #include <sinew/core/text.h>
 #include <sinew/run/run_folder.h>
+#include <sinew/run/run_record.h>
 #include <sinew/study/compare_runs.h>
-#include <sinew/study/study_files.h>
 #include "command/child.h"
 #include "command/command.h"
-#include "command/progress.h"
-#include "command/study_results.h"
+#include "command/results.h"
+#include "command/sweep_runner.h"
 
 namespace {
 
@@ -25,17 +25,10 @@ struct Options : RunOptions {
   std::vector<double> radii;
 };
 
-constexpr const char* how_to_go_on =
-    "sinew: stopped; go on with the whole study by the same command and --resume";
-
 fs::path folder_of_study(const Options& options) {
   if (!options.folder.empty()) return options.folder;
   fs::path folder = run_folder(options.scene, "").path;
   return folder += "_converge";
-}
-
-fs::path folder_of(const fs::path& study, double radius) {
-  return study / ("radius_" + number_text(radius));
 }
 
 void check_radii(const std::vector<double>& radii) {
@@ -60,41 +53,61 @@ void refuse_sizes(const std::vector<Override>& overrides) {
                         "leave it out: each run gets its radius from --radii");
 }
 
-std::vector<std::string> words_for(const Options& options, const Common& common,
-                                   const fs::path& folder, double radius) {
-  std::vector<std::string> words{"--json", "--threads", std::to_string(common.threads)};
-  if (common.quiet) words.push_back("--quiet");
-  for (const Override& override : common.overrides)
-    words.insert(words.end(), {"--set", override.path + '=' + override.value});
-  words.insert(words.end(), {"--set", "body.radius=" + number_text(radius)});
-  if (options.force) words.push_back("--force");
-  if (options.resume && RunFolder{folder}.used()) words.push_back("--resume");
-  words.insert(words.end(), {"-o", folder.string(), "--", options.scene});
-  return words;
+/// The runs, as a sweep over the radius; all their frames are kept.
+Sweep sweep_of(const Options& options, const Common& common, const fs::path& folder) {
+  Sweep sweep{{}, folder, {}, ""};
+  sweep.file.scene = options.scene;
+  sweep.file.keep = KeptFrames::all;
+  for (const double radius : options.radii) {
+    const std::string text = number_text(radius);
+    SweepRun& run =
+        sweep.runs.emplace_back(SweepRun{{text}, common.overrides, "radius_" + text, ""});
+    run.overrides.push_back({"body.radius", text, "--radii"});
+  }
+  return sweep;
 }
 
-void refuse_used(const Options& options, const fs::path& study) {
-  if (options.force || options.resume) return;
-  for (const double radius : options.radii)
-    if (const fs::path folder = folder_of(study, radius); RunFolder{folder}.used())
+void refuse_used(const Sweep& sweep) {
+  for (const SweepRun& run : sweep.runs)
+    if (const RunFolder folder = sweep.folder_of(run); folder.used())
       throw bad_input(
-          Place{folder.string()}, "holds a run already",
+          Place{folder.path.string()}, "holds a run already",
           "go on with --resume, replace it with --force, or choose another folder with -o");
 }
 
-/// The coarsest first: what is wrong with the scene is told soon.
-Exit run_all(const Options& options, const Common& common, const fs::path& study,
-             std::vector<double> radii) {
-  std::sort(radii.rbegin(), radii.rend());
-  for (const double radius : radii) {
-    const fs::path folder = folder_of(study, radius);
-    say(common, "radius " + number_text(radius) + " m:");
-    const ChildEnd end = run_child("simulate", words_for(options, common, folder, radius));
-    const Exit exit = exit_of("simulate", end);
-    if (exit == Exit::interrupted) say(common, how_to_go_on);
-    if (exit != Exit::done) return exit;
+Exit run_radii(const Sweep& sweep, const Options& options, const Common& common) {
+  std::vector<Foreseen> foreseen;
+  std::vector<std::size_t> numbers;
+  for (const SweepRun& run : sweep.runs) {
+    numbers.push_back(foreseen.size());
+    foreseen.push_back(Forecast().of(settings_of(sweep, run)));
   }
-  return Exit::done;
+  RunnerOptions how = packed(sweep, foreseen, common);
+  how.together = true, how.force = options.force;
+  say(common, plan_text(sweep, numbers.size(), how));
+  return run_all(sweep, numbers, foreseen, how, common);
+}
+
+/// Makes the study of all.
+Exit measure(const Sweep& sweep, const Common& common) {
+  std::vector<std::string> words{"--study", "--threads", std::to_string(common.threads), "-o",
+                                 sweep.folder.string()};
+  if (common.quiet) words.push_back("--quiet");
+  if (common.json) words.push_back("--json");
+  words.push_back("--");
+  for (const SweepRun& run : sweep.runs) words.push_back(sweep.folder_of(run).path.string());
+  const ChildEnd end = run_child("measure", words);
+  print_out(end.output);
+  return exit_of("measure", end);
+}
+
+/// What is doubtful in any of the runs, once.
+void tell_warnings(const Sweep& sweep, const Common& common) {
+  std::vector<std::string> all;
+  for (const SweepRun& run : sweep.runs)
+    for (const std::string& warning : warnings_in(read_record(sweep.folder_of(run))))
+      if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
+  print_warnings(all, common);
 }
 
 Exit converge(const Options& options, const Common& common) {
@@ -102,21 +115,14 @@ Exit converge(const Options& options, const Common& common) {
   refuse_sizes(common.overrides);
   const fs::path out = folder_of_study(options);
   refuse_folders_of_runs(out, {});
-  refuse_used(options, out);
-  const Exit exit = run_all(options, common, out, options.radii);
+  const Sweep sweep = sweep_of(options, common, out);
+  if (!options.force && !options.resume) refuse_used(sweep);
+  Exit exit = run_radii(sweep, options, common);
+  if (exit == Exit::done) exit = measure(sweep, common);
+  if (exit == Exit::interrupted)
+    say(common, "sinew: stopped; go on with the whole study by the same command and --resume");
   if (exit != Exit::done) return exit;
-  std::vector<fs::path> folders;
-  for (const double radius : options.radii) folders.push_back(folder_of(out, radius));
-  StageProgress progress("measuring", progress_style(common.quiet));
-  MeasureOptions how;
-  how.ahead = common.threads != 1;
-  how.progress = [&](std::size_t done, std::size_t of) {
-    if (stop_requested()) throw Error(Exit::interrupted, std::string(how_to_go_on).substr(7));
-    progress.at(done, of);
-  };
-  const Study study = study_runs(folders, how);
-  write_study(study, out);
-  print_study(study, out, common);
+  tell_warnings(sweep, common);
   return Exit::done;
 }
 

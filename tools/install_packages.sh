@@ -5,14 +5,14 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libcgal-dev libvtk9-dev libyaml-cpp-dev libtbb-dev
-  libdeflate-dev liblz4-dev libexpat1-dev libcli11-dev nlohmann-json3-dev libfmt-dev libx11-dev xvfb ffmpeg
+  libdeflate-dev liblz4-dev libexpat1-dev libmeshoptimizer-dev libdraco-dev libcli11-dev nlohmann-json3-dev libfmt-dev libx11-dev xvfb ffmpeg
   libjs-chart.js libjs-three liblammps-dev lammps openmpi-bin)
-test=(libgtest-dev libbenchmark-dev pybind11-dev python3-dev python3 python3-ase python3-ipykernel python3-matplotlib python3-meshio python3-nbconvert python3-numpy python3-vtk9 xauth iproute2 paraview procps calculix-ccx chromium clang-format clang-tidy)
+test=(libgtest-dev libbenchmark-dev pybind11-dev python3-dev python3 python3-ase python3-ipykernel python3-jsonschema python3-matplotlib python3-meshio python3-nbconvert python3-numpy python3-vtk9 python3-yaml xauth iproute2 paraview libqt5svg5 procps calculix-ccx chromium chromium-driver blender draco gltfpack clang-format clang-tidy)
 python=(pybind11-dev python3-dev python3-numpy)
 package=(pybind11-dev python3-dev dpkg-dev file help2man)
 bench=(libbenchmark-dev libgtest-dev python3)
 ci=(ccache debootstrap debian-archive-keyring git)
-dispensable=(calculix-ccx)  # Debian 13 has none; tests that need one are skipped
+dispensable=(calculix-ccx libqt5svg5 blender draco gltfpack)  # Debian 13 has no ccx; tests that need one are skipped; icons of ParaView's buttons
 
 print_only=false
 if [ "${1:-}" = --list ]; then

@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 
 #include <sinew/core/file.h>
 #include <sinew/core/system.h>
@@ -12,6 +13,7 @@
 #include <sinew/display/display.h>
 #include <sinew/figures/figure_set.h>
 #include <sinew/figures/scene_picture.h>
+#include <sinew/figures/small_pictures.h>
 #include <sinew/run/run_record.h>
 #include "command/child.h"
 #include "command/command.h"
@@ -34,6 +36,7 @@ struct Options {
   std::vector<int> part;      ///< part of the movie's frames, which goes to standard output: K of N
   int width = 0, height = 0;  ///< 0: those of the look
   bool no_movie = false, no_pictures = false;
+  std::string small;      ///< file that lists runs: a small picture of each
   bool percents = false;  ///< whether progress is told as lines on standard output, for sinew run
 };
 
@@ -66,7 +69,8 @@ std::string help_of_looks() {
 }
 
 void declare_what(OptionList& list, Options& options) {
-  list.add("DIR", options.folder, "Folder of the run").required();
+  const CommandOption small = list.add("--small", options.small).group("");
+  list.add("DIR", options.folder, "Folder of the run").excludes(small);
   list.add("--view", options.views, help_of_views()).comma_separated().type_name("NAMES");
   list.add("--compare", options.other_folder, "Another run, shown beside this one")
       .type_name("DIR");
@@ -132,6 +136,13 @@ void check_movie(const Options& options, const Backdrop& backdrop) {
     throw bad_input("the camera orbits in the movie alone", "leave out --no-movie or --orbit");
 }
 
+/// The view binding, whose colors have no range, where others are drawn in one.
+void leave_out_without_range(DrawnRunOptions& what, const Options& options, const Common& common) {
+  if (options.range.empty() || what.presets.size() < 2) return;
+  if (std::erase_if(what.presets, [](const ViewPreset& one) { return one.view == View::binding; }))
+    say(common, "warning: without the view binding: its colors have no range");
+}
+
 FigureSetOptions figure_set_options(const Options& options) {
   FigureSetOptions figure_set;
   const Look& look = look_named(options.look);
@@ -146,11 +157,7 @@ FigureSetOptions figure_set_options(const Options& options) {
   figure_set.axes = options.axes;
   figure_set.orbit = radians(options.orbit);
   check_movie(options, figure_set.files.backdrop);
-  if (options.range.empty()) return figure_set;
-  if (options.range.size() != 2 || !(options.range[0] < options.range[1]))
-    throw bad_input("a range of colors needs two numbers, the lower one first",
-                    "give it as --range 0,0.5");
-  figure_set.range = {options.range[0], options.range[1]};
+  if (!options.range.empty()) figure_set.range = color_range(options.range);
   return figure_set;
 }
 
@@ -268,26 +275,96 @@ std::filesystem::path target_of(const Options& options, const RunFiles& run) {
   return options.target;
 }
 
-Exit render(const Options& options, const Common& common, const std::vector<std::string>& words) {
-  FigureSetOptions figure_set = figure_set_options(options);
-  DrawnRunOptions what{
-      {}, options.array, figure_set.view, options.bones, options.traced, plane_of(options)};
-  const std::vector<std::string> views = views_of(options);
-  for (const std::string& view : views) what.presets.push_back(view_preset_named(view));
+/// Opens a run for what can be drawn of it; the rest is told, and left out of `what`.
+const DrawnRun& opened(std::deque<DrawnRun>& runs, const std::string& folder, DrawnRunOptions& what,
+                       const Common& common) {
+  const DrawnRun& run = runs.emplace_back(folder, what);
+  for (const auto& [preset, why] : run.left_out()) {
+    say(common, "warning: without the view " + preset + ": " + why);
+    std::erase_if(what.presets, [&](const ViewPreset& one) { return one.name == preset; });
+  }
+  return run;
+}
+
+/// One view or several of a run, or of two.
+std::vector<const DrawnRun*> open_runs(std::deque<DrawnRun>& runs, const Options& options,
+                                       DrawnRunOptions& what, const Common& common) {
+  std::vector<const DrawnRun*> shown = {&opened(runs, options.folder, what, common)};
+  if (options.other_folder.empty()) return shown;
+  shown.push_back(&opened(runs, options.other_folder, what, common));
+  if (runs[0].view_presets().size() == what.presets.size()) return shown;
+  runs.clear();  // the first once more, with what can be drawn of both
+  return open_runs(runs, options, what, common);
+}
+
+DrawnRunOptions what_to_draw(const Options& options, const Mat3& view, const Common& common) {
+  DrawnRunOptions what{{}, options.array, view, options.bones, options.traced, plane_of(options)};
+  for (const std::string& name : views_of(options)) what.presets.push_back(view_preset_named(name));
+  leave_out_without_range(what, options, common);
   what.ahead = common.threads != 1;
   what.follows = options.other_folder.empty();
   what.by_front = what.follows && is_side(options.camera);
+  return what;
+}
+
+/// Ranges of the colors: those of runs beside each other hold the values of all.
+ValueRanges ranges_of(const std::vector<const DrawnRun*>& shown) {
+  ValueRanges ranges;
+  for (const DrawnRun* run : shown)
+    for (const auto& [quantity, found] : run->ranges()) {
+      ValueRange& range = ranges.try_emplace(quantity, found).first->second;
+      range = {std::min(range.low, found.low), std::max(range.high, found.high)};
+    }
+  return ranges;
+}
+
+/// Records and prints what has been drawn.
+void tell(const Options& options, const Common& common, const std::vector<const DrawnRun*>& shown,
+          int pictures, double seconds, const std::string& folder) {
+  const DrawnRun& run = *shown.front();
+  Results results;
+  if (!options.no_pictures) results.add("pictures", pictures);
+  if (!options.no_movie) results.add("movie_frames", run.files().frames());
+  record_stage(run.files().folder, "rendering", seconds, {run.ranges(), run.files().frames_run});
+  if (!options.no_pictures) renew_view(run.files().folder, run.files().ranges);
+  if (!options.no_pictures) results.add_value("ranges", json_of(ranges_of(shown)));
+  std::vector<std::string> left_out = views_of(options);
+  for (const DrawnView& drawn : run.view_presets())
+    std::erase(left_out, std::string(drawn.preset.name));
+  if (!left_out.empty()) results.add("left_out", left_out);
+  results.add("folder", folder);
+  results.print(common);
+}
+
+/// The runs of a sweep.
+Exit render_small(const std::string& list) {
+  constexpr int width = 320, height = 240;
+  constexpr std::uint64_t largest = std::uint64_t{1} << 26;
+  std::vector<std::filesystem::path> runs;
+  std::istringstream lines(read_file(list, largest));
+  for (std::string line; std::getline(lines, line);) runs.emplace_back(line);
+  ensure_display();
+  write_small_pictures(runs, width, height);
+  return Exit::done;
+}
+
+Exit render(const Options& options, Common common, const std::vector<std::string>& words) {
+  if (!options.small.empty()) return render_small(options.small);
+  if (options.folder.empty())
+    throw bad_input("there is no DIR", "name the folder of a run: sinew render out/box_bend");
+  if (!options.part.empty()) common.quiet = true;  // the main process tells all
+  FigureSetOptions figure_set = figure_set_options(options);
+  DrawnRunOptions what = what_to_draw(options, figure_set.view, common);
   ensure_display();
   Stopwatch watch;
   std::deque<DrawnRun> runs;
-  std::vector<const DrawnRun*> shown;
-  for (const std::string& folder : {options.folder, options.other_folder})
-    if (!folder.empty()) shown.push_back(&runs.emplace_back(folder, what));
+  const std::vector<const DrawnRun*> shown = open_runs(runs, options, what, common);
+  const std::size_t views = what.presets.size();
   const RunFiles& run = runs.front().files();
   figure_set.view = runs.front().view();
   figure_set.folder = target_of(options, run);
   if (!options.part.empty()) {
-    for (std::size_t preset = 0; preset < views.size(); ++preset) {
+    for (std::size_t preset = 0; preset < views; ++preset) {
       FigureSet pages(shown, preset, figure_set);
       if (has_movie(options, preset)) write_part(pages, options.part);
     }
@@ -299,10 +376,10 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
     create_folder(figure_set.folder);
   const PicturesLock lock(figure_set.folder);
   Helpers helpers(helpers_for(run, options), words);
-  DrawnFraction drawn(options, common, views.size() * pictures_planned(options, runs.front()));
+  DrawnFraction drawn(options, common, views * pictures_planned(options, runs.front()));
   figure_set.drawn = [&] { drawn.add_one(); };
   int pictures = 0;
-  for (std::size_t preset = 0; preset < views.size(); ++preset) {
+  for (std::size_t preset = 0; preset < views; ++preset) {
     FigureSet pages(shown, preset, figure_set);
     if (!options.no_pictures) {
       pictures += pages.pictures() + 1;
@@ -315,12 +392,7 @@ Exit render(const Options& options, const Common& common, const std::vector<std:
                         figure_set.files, (figure_set.folder / "scene.png").string());
     ++pictures;
   }
-  Results results;
-  if (!options.no_pictures) results.add("pictures", pictures);
-  if (!options.no_movie) results.add("movie_frames", run.frames());
-  record_stage(run.folder, "rendering", watch.lap());
-  results.add("folder", figure_set.folder.string());
-  results.print(common);
+  tell(options, common, shown, pictures, watch.lap(), figure_set.folder.string());
   return Exit::done;
 }
 

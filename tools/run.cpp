@@ -6,7 +6,9 @@
 
 #include <sinew/core/json.h>
 #include <sinew/core/system.h>
+#include <sinew/core/text.h>
 #include <sinew/run/run_folder.h>
+#include <sinew/run/run_record.h>
 #include "command/child.h"
 #include "command/command.h"
 #include "command/drawing.h"
@@ -94,7 +96,10 @@ class Stages {
   }
 
   void print(const Common& common) {
-    results_.add_headline("time", tenths(total_) + " s (" + times_ + ')');
+    std::string frames;
+    if (frames_ > 0) frames = "; " + three_digits(total_ / frames_) + " s per frame";
+    results_.add_headline("time", tenths(total_) + " s (" + times_ + frames + ')');
+    if (frames_ > 0) results_.add("seconds_per_frame", total_ / frames_);
     results_.print(common);
   }
 
@@ -114,8 +119,12 @@ class Stages {
   static std::string tenths(double seconds) { return fmt::format("{:.1f}", seconds); }
 
   void collect(const nlohmann::ordered_json& found) {
+    if (found.contains("frames")) frames_ = found["frames"];
     for (const auto& [key, value] : found.items())
-      if (key != "folder" && key != "summary") results_.add(key, value);
+      if (key == "warnings")
+        results_.add_value(key, value);
+      else if (key != "folder" && key != "summary")
+        results_.add(key, value);
     if (found.contains("summary"))
       for (const auto& line : found["summary"])
         if (const std::string words = line; !words.starts_with("folder: "))
@@ -126,6 +135,7 @@ class Stages {
   std::string folder_, times_;
   Stopwatch watch_;
   double total_ = 0;  ///< s
+  int frames_ = 0;
 };
 
 /// The report includes the pictures, so they are made first; it does not wait for the movie, which
@@ -166,8 +176,11 @@ Exit run(const Options& options, const Common& common) {
   if (exit == Exit::done)
     exit = show(options, common, folder, stages);
   else if (exit == Exit::unstable)
-    show(options, common, folder, stages);            // the frames before: they show what happened
-  if (exit != Exit::bad_input) stages.print(common);  // else nothing was run
+    show(options, common, folder, stages);   // the frames before: they show what happened
+  if (exit == Exit::bad_input) return exit;  // nothing was run
+  stages.print(common);
+  if (const RunFolder run{folder}; run.used())
+    print_warnings(warnings_in(read_record(run)), common);
   return exit;
 }
 

@@ -24,16 +24,16 @@ struct Options : RunOptions {
   EngineOptions engine;
 };
 
-void print_results(const RunFolder& folder, const std::string& text, const Common& common) {
-  const auto record = parsed_json<nlohmann::ordered_json>(text);
+void print_results(const RunFolder& folder, const nlohmann::ordered_json& record,
+                   const Common& common) {
   Results results;
   results.add("folder", folder.path.string());
   for (const char* key : {"status", "particles", "frames", "steps", "time_step", "time_step_limit",
                           "time_step_factor", "precision", "neighbor_search", "instruction_set",
                           "particle_steps_per_second", "state_hash"})
     if (record.contains(key)) results.add(key, record[key]);
-  if (record.contains("moduli_at_probes"))
-    results.add_value("moduli_at_probes", record["moduli_at_probes"]);
+  for (const char* key : {"moduli_at_probes", "warnings"})
+    if (record.contains(key)) results.add_value(key, record[key]);
   results.add_headline("status", record["status"]);
   results.add_headline("particles", std::to_string(record["particles"].get<std::int64_t>()));
   const std::string steps = std::to_string(record["steps"].get<std::int64_t>());
@@ -72,7 +72,8 @@ Exit simulate_scene(int argc, char** argv, const Options& options, const Common&
     progress.reset();
     say(common, line);
   };
-  how.warning = [&](const std::string& line) { how.message("sinew: warning: " + line); };
+  std::vector<std::string> warnings;
+  how.warning = [&](const std::string& line) { warnings.push_back(line); };
   how.stop_requested = stop_requested;
   how.before_writing = catch_stop_signals;
   how.progress = [&](const RunProgress& at) {
@@ -82,10 +83,19 @@ Exit simulate_scene(int argc, char** argv, const Options& options, const Common&
     progress->frame(at.frame, at.time, at.steps, at.waited);
     if (at.frame == at.frames) progress.reset();
   };
-  const RunResult result = simulate(settings, folder, how);
+  RunResult result;
+  try {
+    result = simulate(settings, folder, how);
+  } catch (...) {
+    progress.reset();
+    if (options.invoked_as != "run") print_warnings(warnings, common);
+    throw;
+  }
   progress.reset();
   if (result.was_finished) return Exit::done;
-  print_results(folder, result.record, common);
+  const auto record = parsed_json<nlohmann::ordered_json>(result.record);
+  print_results(folder, record, common);
+  if (options.invoked_as != "run") print_warnings(warnings_in(record), common);
   if (result.exit == Exit::interrupted)
     say(common, "sinew: stopped; go on with: " + resume_words(options, common, folder));
   return result.exit;

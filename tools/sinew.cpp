@@ -26,18 +26,21 @@ struct Known {
   std::string_view name, purpose;
 };
 
-constexpr std::array<Known, 11> commands = {{
+constexpr std::array<Known, 14> commands = {{
     {"new", "write a scene for a mesh, which runs as it is"},
     {"run", "fill, simulate, render and measure a scene"},
     {"check", "report what a run needs, and doubtful settings"},
     {"fill", "fill a mesh with closest-packed particles"},
     {"simulate", "move the bones and write the motion of the body"},
+    {"play", "pose a body by hand in the browser, and record it as a scene"},
     {"converge", "run a scene with particles of several sizes; limits for small ones"},
+    {"sweep", "run a scene with many values of its settings; tables and a page"},
     {"measure", "write the metrics and the report of a run"},
     {"render", "draw pictures and a movie of a run"},
     {"view", "open a run in ParaView, even while it is in progress"},
     {"export", "write the particles of a run for other programs"},
     {"info", "describe a file and list its defects"},
+    {"presets", "list materials by name, with their sources"},
 }};
 
 std::string usage() {

@@ -5,6 +5,8 @@
 
 #include <sinew/core/arrays.h>
 #include <sinew/core/capabilities.h>
+#include <sinew/core/options.h>
+#include <sinew/core/text.h>
 #include <sinew/io/series_table.h>
 #include <sinew/metrics/bone_metrics.h>
 #include <sinew/metrics/sections.h>
@@ -96,8 +98,22 @@ std::string capabilities_markdown() {
       cells_of_row += excluded ? " no |" : row.feature == column ? " |" : " yes |";
     }
     if (cells_of_row.find("no") != std::string::npos)
-      text += "| " + std::string(row.words) + " | " + keys + " |" + cells_of_row + '\n';
+      text.append("| ").append(row.words).append(" | ").append(keys).append(" |").append(
+          cells_of_row + '\n');
   }
+  return text;
+}
+
+std::string presets_markdown() {
+  std::string text =
+      "| preset | Young's modulus | density, kg/m^3 | Poisson's ratio | damping ratio | what | "
+      "source |\n"
+      "|---|--:|--:|--:|--:|---|---|\n";
+  for (const MaterialPreset& preset : material_presets())
+    text += markdown_row({'`' + std::string(preset.name) + '`',
+                          quantity_text(preset.young_modulus, "Pa"), number_text(preset.density),
+                          number_text(preset.poisson_ratio), number_text(preset.damping_ratio),
+                          preset.what, preset.source});
   return text;
 }
 
@@ -110,9 +126,10 @@ std::string table_named(const std::string& name) {
   if (name == "bones") return bones_markdown();
   if (name == "sections") return sections_markdown();
   if (name == "capabilities") return capabilities_markdown();
-  throw bad_input(
-      "no table is named '" + name + "'",
-      "write sinew-tables settings, arrays, series, metrics, bones, sections or capabilities");
+  if (name == "presets") return presets_markdown();
+  throw bad_input("no table is named '" + name + "'",
+                  "write sinew-tables settings, arrays, series, metrics, bones, sections, "
+                  "capabilities or presets");
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ struct Options {
   std::string folder, picture;
   ViewOptions view;
   std::vector<int> size = {1920, 1000};
+  std::vector<double> range;
   bool live = false;
 };
 
@@ -51,6 +52,10 @@ void declare(OptionList& list, Options& options) {
   list.add("--forces", options.view.forces,
            "Arrows of a force: force_pair if none is named, force_bone, force, ...")
       .expected(0, 1);
+  list.add("--range", options.range,
+           "Values of the lowest and highest color; by default those of the run's other pictures")
+      .comma_separated()
+      .type_name("LOW,HIGH");
   list.add("--time", options.view.time, "Time to show, s; by default when the array is largest");
   list.add("--size", options.size, "Size of the picture, pixels")
       .expected(2)
@@ -77,7 +82,7 @@ fs::path program_named(const std::string& name) {
   for (std::string folder; std::getline(folders, folder, ':');)
     if (::access((fs::path(folder) / name).c_str(), X_OK) == 0) return fs::path(folder) / name;
   throw Error(Exit::not_written,
-              name + " is not installed; install it with: apt-get install paraview");
+              name + " is not installed; install it with: apt-get install paraview libqt5svg5");
 }
 
 /// Folders that may hold ParaView's Python: Debian's package of it cannot be installed beside
@@ -191,7 +196,10 @@ class Workplace {
   fs::path path_;
 };
 
-/// Runs a program to its end; returns whether it has ended well.
+pid_t running = 0;  // for a handler of signals
+
+/// Runs a program to its end; returns whether it has ended well. SIGTERM and SIGHUP end it, and
+/// the caller goes on.
 bool run_program(const fs::path& program, std::vector<std::string> words) {
   words.insert(words.begin(), program.string());
   const pid_t child = ::fork();
@@ -199,9 +207,15 @@ bool run_program(const fs::path& program, std::vector<std::string> words) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     become(program, words);
   }
+  running = child;
   std::signal(SIGINT, SIG_IGN);  // Ctrl-C ends the child, after which the workplace is removed
+  for (const int by : {SIGTERM, SIGHUP})
+    std::signal(by, [](int signal) {
+      if (running > 0) ::kill(running, signal);
+    });
   int status = 0;
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  running = 0;
   return child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
@@ -314,9 +328,16 @@ Exit draw(const RunFolder& folder, Options options) {
   return Exit::done;
 }
 
-Exit view(const Options& options, const Common& common) {
+/// The range of colors that is asked for, and those known of the run.
+void choose_ranges(Options& options, const RunFolder& folder) {
+  options.view.ranges = recorded_ranges(folder);
+  if (!options.range.empty()) options.view.range = color_range(options.range);
+}
+
+Exit view(Options options, const Common& common) {
   const RunFolder folder{options.folder};
   check(options, folder);
+  choose_ranges(options, folder);
   check_picture(options.picture);
   if (!options.picture.empty()) refuse_file_of_run(options.picture);
   if (!options.picture.empty()) return draw(folder, options);

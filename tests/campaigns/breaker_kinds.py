@@ -184,35 +184,25 @@ def records(trial):
 
 
 def checkpoints(trial):
-    """Sections forged, with the right length and checksum."""
+    """Bytes forged, with the right length and checksum."""
     kind = trial.chance.choice(("run", "static"))
     run = trial.inside / "run"
     words = ["simulate", trial.samples / f"{kind}.yaml", "-o", run, "--set", "solver.duration=3", "--set"]
     trial.sinew(*words, "solver.wall_time=0.2", codes={0, 130})
     newest = max((run / "checkpoint").iterdir(), key=lambda file: file.stat().st_mtime_ns)
     data = newest.read_bytes()
-    sections, at = [], 24
-    while at < len(data) - 8:
-        size, count = struct.unpack_from("<QQ", data, at + 8)
-        sections.append((data[at:at + 8], size, count, data[at + 24:at + 24 + size * count]))
-        at += 24 + size * count
-    chosen = trial.chance.randrange(6, len(sections))
-    name, size, count, values = sections[chosen]
-    how = trial.chance.randrange(4)
-    if how == 0:
-        count, values = 0, b""
-    elif how == 1:
-        count, values = count + 1000, values + b"\1" * size * 1000
-    elif how == 2 and values:
-        at = trial.chance.randrange(len(values) // size) * size
-        value = trial.chance.choice((b"\xff" * size, b"\0" * size, struct.pack("<d", float("nan"))[-size:],
-                                     struct.pack("<q", 10**18)[:size], struct.pack("<d", 1e300)[-size:]))
-        values = values[:at] + value + values[at + size:]
-    else:
-        values = bytes(trial.chance.randrange(256) for _ in values) if len(values) < 10_000 else values[::-1]
-    sections[chosen] = name, size, count, values
-    out = b"".join(name + struct.pack("<QQ", size, count) + values for name, size, count, values in sections)
-    text = bytearray(data[:24] + out + b"\0" * 8)
+    size, count = struct.unpack_from("<QQ", data, 32)
+    begin = 48 + size * count  # of what the version reads: numbers, counts, columns
+    # Names and counts stand at the ends of large columns: half of the places are near the beginning.
+    last = trial.chance.choice((len(data) - 16, min(len(data) - 16, begin + 400)))
+    at, width = trial.chance.randrange(begin, last), trial.chance.choice((1, 4, 8))
+    stretch = data[at:at + trial.chance.choice((8, 100, 10_000))]
+    value = trial.chance.choice((b"\xff" * width, b"\0" * width, struct.pack("<d", float("nan"))[-width:],
+                                 struct.pack("<q", 10**18)[:width], struct.pack("<d", 1e300)[-width:],
+                                 struct.pack("<q", int.from_bytes(data[at:at + 8], "little", signed=True) // 2 + 1000)[:width]))
+    put = trial.chance.choice((value, value, value, stretch + stretch, b"", bytes(reversed(stretch))))
+    taken = width if put is value else len(stretch)
+    text = bytearray(data[:at] + put + data[at + taken:-8] + b"\0" * 8)
     struct.pack_into("<Q", text, 16, len(text))
     value = 0xcbf29ce484222325
     for byte in text[:-8]:

@@ -28,7 +28,7 @@ def reads_by_plugin(folder):
             series.choose(arrays)
             for time, _ in rows:
                 series.at(time, arrays)
-    yield from (lambda name=name: read(name) for name in run_files.SERIES)
+    yield from (lambda name=name: read(name) for name in run_files.series_of(folder))
     yield from (lambda name=name: run_files.table_of(f"{folder}/{name}.csv") for name in run_files.TABLES)
 
 

@@ -94,6 +94,8 @@ TEST(SettingsTable, EveryRowGetsAndSetsItsOwnMember) {
   expect_round_trips(strength_fields());
   expect_round_trips(muscle_fields());
   expect_round_trips(activation_fields());
+  expect_round_trips(spring_fields());
+  expect_round_trips(spring_key_fields());
 }
 
 TEST(SettingsTable, IsWellFormed) {
@@ -109,6 +111,8 @@ TEST(SettingsTable, IsWellFormed) {
   expect_well_formed(strength_fields());
   expect_well_formed(muscle_fields());
   expect_well_formed(activation_fields());
+  expect_well_formed(spring_fields());
+  expect_well_formed(spring_key_fields());
 }
 
 TEST(SettingsTable, DefaultsLieInTheirRanges) {

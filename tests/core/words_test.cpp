@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <sinew/core/text.h>
 
 namespace sinew::words_test {
@@ -33,6 +35,31 @@ TEST(ShellQuoted, IsOneWordOfPrintableLetters) {
   EXPECT_EQ(shell_quoted(""), "''");
   EXPECT_EQ(shell_quoted("it's; \xC3\xBC"), "'it'\\''s; \xC3\xBC'");
   EXPECT_EQ(shell_quoted("a\x1b'\\\xFF"), "$'a\\x1b\\x27\\x5c\\xff'");
+}
+
+TEST(QuantityText, HasAPrefixOfTheSiWhereDigitsWouldBeMany) {
+  EXPECT_EQ(quantity_text(2370, "Pa"), "2.37 kPa");
+  EXPECT_EQ(quantity_text(1e6, "Pa"), "1 MPa");
+  EXPECT_EQ(quantity_text(999.9, "Pa"), "1 kPa");
+  EXPECT_EQ(quantity_text(0.00175, "m"), "1.75 mm");
+  EXPECT_EQ(quantity_text(-3.2e-7, "N"), "-320 nN");
+  EXPECT_EQ(quantity_text(0.05, "m"), "0.05 m");
+  EXPECT_EQ(quantity_text(0, "J"), "0 J");
+}
+
+TEST(QuantityText, LeavesUnitsAloneThatTakeNoPrefix) {
+  EXPECT_EQ(quantity_text(2370, "N/m"), "2.37e+03 N/m");
+  EXPECT_EQ(quantity_text(1e-5, "m^2"), "1e-05 m^2");
+}
+
+TEST(QuantityText, IsOfTheSizeOfItsNumber) {
+  for (int power = -14; power < 15; ++power)
+    for (const double digits : {1.0, 2.5, 9.99}) {
+      const double value = digits * std::pow(10, power);
+      const PrefixedUnit shown = prefixed_unit(value, "Pa");
+      EXPECT_GE(value / shown.size, power < -12 ? 0 : 0.00999) << value;
+      EXPECT_LT(value / shown.size, 1000) << value;
+    }
 }
 
 }  // namespace sinew::words_test

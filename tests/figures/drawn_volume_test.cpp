@@ -76,7 +76,8 @@ TEST(DrawnVolume, CutsAtThePlaneThatIsAskedForAndColorsByTheParticles) {
     EXPECT_GT(cut.points[*high].z(), 0.2);
   }
   ASSERT_EQ(cut.values.size(), cut.points.size());
-  const auto [low, high] = std::minmax_element(snapshot.values.begin(), snapshot.values.end());
+  const std::vector<double> J = DrawnValues(run.files(), "J").at(2, read_frame(run.files(), 2));
+  const auto [low, high] = std::minmax_element(J.begin(), J.end());
   for (const double value : cut.values) {
     EXPECT_GE(value, *low - 1e-12);
     EXPECT_LE(value, *high + 1e-12);

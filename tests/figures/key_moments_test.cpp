@@ -14,6 +14,8 @@ RunOverview there_and_back(double angle, double off, double end = 0) {
   RunOverview overview;
   overview.angle = {0, angle / 4, angle / 2, angle, angle, angle / 3, end};
   overview.shift = {0, angle, 2 * angle, 4 * angle, 4 * angle, angle, off};
+  overview.farthest = overview.shift;
+  overview.farthest.back() = 12.3 * off;
   return overview;
 }
 
@@ -36,7 +38,8 @@ TEST(KeyMoments, SayWhatTheyShow) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(words_of(key_moments(there_and_back(1.5, 0), r)),
             (Words{"at rest", "half way", "largest turn", "returned"}));
-  EXPECT_EQ(words_of(key_moments(there_and_back(1.5, 0.41 * r), r)).back(), "returned, 0.41 r off");
+  EXPECT_EQ(words_of(key_moments(there_and_back(1.5, 0.41 * r), r)).back(),
+            "returned, 0.41 r off in the mean, 5 r at most");
   EXPECT_EQ(words_of(key_moments(there_and_back(1.5, r, 0.7), r)).back(), "the end");
   RunOverview moved = there_and_back(1.5, 0);
   moved.shift.front() = r;

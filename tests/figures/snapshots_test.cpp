@@ -7,7 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sinew/core/file.h>
 #include <sinew/figures/figure_set.h>
+#include <sinew/run/measure_run.h>
+#include <sinew/run/run_record.h>
+#include <nlohmann/json.hpp>
 #include "figures/drawn_runs.h"
 #include "support/expect_error.h"
 #include "support/source_dir.h"
@@ -45,6 +49,97 @@ TEST(RunSnapshot, ShowsStretchedBonesAsLongAsTheyAre) {
     EXPECT_NEAR((upper.tail - upper.head).norm(), stretch * 0.34648, 1e-6) << frame;
     EXPECT_LT((upper.head - lower.tail).norm(), 1e-6);
   }
+}
+
+TEST(RunRanges, AreOnePerQuantityInAllViews) {
+  const TempFolder folder;
+  const RunFolder at = test::run_of_scene(folder, stretching_scene());
+  DrawnRunOptions options;
+  for (const char* view : {"section", "cut", "halves", "strain", "body", "particles"})
+    options.presets.push_back(view_preset_named(view));
+  const DrawnRun all(at.path.string(), options);
+  const ValueRange strain = all.view_presets().front().range;
+  EXPECT_GT(strain.high, 0.01);
+  for (std::size_t view = 0; view < 5; ++view) {
+    EXPECT_EQ(all.view_presets()[view].range.low, strain.low) << view;
+    EXPECT_EQ(all.view_presets()[view].range.high, strain.high) << view;
+  }
+  EXPECT_NE(all.view_presets()[5].range.high, strain.high);  // displacement
+  EXPECT_EQ(all.ranges().at("strain_eq").high, strain.high);
+  EXPECT_EQ(all.ranges().at("displacement").high, all.view_presets()[5].range.high);
+}
+
+TEST(RunRanges, ThatARunHasRecordedAreKept) {
+  const TempFolder folder;
+  const RunFolder at = test::run_of_scene(folder, stretching_scene());
+  record_stage(at, "rendering", 1, {{{"strain_eq", {0.25, 4}}}, 3});
+  record_stage(at, "measuring", 1, {{{"strain_eq", {0, 1}}, {"J", {0.5, 1.5}}}, 3});
+  record_stage(at, "measuring", 1, {{{"D2min", {0, 1}}}, 2});  // of a run that has gone on
+  EXPECT_FALSE(recorded_ranges(at).contains("D2min"));
+  EXPECT_EQ(recorded_ranges(at).at("strain_eq").high, 4);
+  EXPECT_EQ(recorded_ranges(at).at("J").low, 0.5);
+  for (const char* view : {"cut", "section", "strain"}) {
+    const DrawnRun run(at.path.string(), test::drawn_as(view));
+    EXPECT_EQ(run.view_presets().front().range.low, 0.25) << view;
+    EXPECT_EQ(run.view_presets().front().range.high, 4) << view;
+  }
+  EXPECT_EQ(measure_run(open_run(at), {}).playback.ranges.at("strain_eq").high, 4);
+}
+
+TEST(RunRanges, AreRecordedOfWholeRunsAlone) {
+  for (const char* every : {"1", "2", "3"}) {
+    const TempFolder folder;
+    std::string scene = stretching_scene();
+    scene.replace(scene.find("bonds: false"), 12, "every: " + std::string(every));
+    const RunFolder at = test::run_of_scene(folder, scene);
+    EXPECT_EQ(open_run(at).frames_run, 3u) << every;
+    const std::filesystem::path series = at.path / "surface.pvd";
+    std::string rows = read_file(series);
+    const std::size_t second = rows.find("<DataSet", rows.find("<DataSet") + 1);
+    write_file(series, rows.erase(second, rows.find("</Collection>") - second));
+    EXPECT_EQ(open_run(at).frames_run, every == std::string("3") ? 3u : 0u) << every;
+  }
+}
+
+TEST(RunRanges, OfAnotherFormAreNone) {
+  const TempFolder folder;
+  const RunFolder at = test::run_of_scene(folder, stretching_scene());
+  auto record = read_record(at);
+  record["ranges"] = {{"strain_eq", {1, 0}}, {"J", "all"}, {"speed", {0, 2}}, {"D2min", {1}}};
+  write_record(at, record);
+  const ValueRanges found = recorded_ranges(at);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.at("speed").high, 2);
+  record["ranges"] = "none";
+  write_record(at, record);
+  EXPECT_TRUE(recorded_ranges(at).empty());
+  write_file(at.record(), "{\"program\": ");  // torn: the frames are sound
+  EXPECT_TRUE(open_run(at).ranges.empty());
+}
+
+TEST(RunViews, OfWhichOneCannotBeDrawnAreTheOthers) {
+  const TempFolder folder;
+  const RunFolder at = test::run_of_scene(folder, stretching_scene());  // without bonds
+  DrawnRunOptions options;
+  for (const char* view : {"bonds", "cut"}) options.presets.push_back(view_preset_named(view));
+  const DrawnRun run(at.path.string(), options);
+  ASSERT_EQ(run.view_presets().size(), 1u);
+  EXPECT_EQ(run.view_presets().front().preset.name, "cut");
+  ASSERT_EQ(run.left_out().size(), 1u);
+  EXPECT_EQ(run.left_out().front().preset, "bonds");
+  test::expect_bad_input([&] { DrawnRun(at.path.string(), test::drawn_as("bonds")); }, {});
+}
+
+TEST(RunViews, ThatAreCutOpenKeepThePaleSkinAndHideBonesBeforeThePlane) {
+  const TempFolder folder;
+  const RunFolder at = test::run_of_scene(folder, stretching_scene());
+  DrawnRunOptions options = test::drawn_as("cut");
+  options.plane = CutPlane{{0, 0, 0.4}, Vec3::UnitZ()};  // through the upper bone below its middle
+  const DrawnRun run(at.path.string(), options);
+  const Snapshot snapshot = run.snapshot(0, run.view_presets().front());
+  EXPECT_TRUE(snapshot.opened);
+  ASSERT_EQ(snapshot.bones.size(), 1u);     // the lower one
+  EXPECT_TRUE(snapshot.particles.empty());  // no cell is torn
 }
 
 TEST(RunSnapshot, SaysAnAngleOnlyOfBones) {

@@ -182,21 +182,19 @@ TEST_F(HostileGltfRig, WithBindMatricesThatAreNoneIsRefused) {
     for (const std::size_t at : {0, 60, 112})
       expect_refused(with_number(binds, at, x), "hold a number that is not finite");
   expect_refused(with_number(binds, 0, 0.0F), "has a bind matrix that cannot be inverted");
-  expect_refused(with_number(binds, 0, 1e-38F), "the uneven scale");
-  expect_refused(with_number(binds, 4, 1.0F), "joint 'upper' (node 1) is bound with the uneven");
   expect_refused(with_number(binds, 60, 2.0F), "do not end in the row 0 0 0 1");
   expect_refused(with_number(binds, 12, 1.0F), "do not end in the row 0 0 0 1");
   Gltf gltf = bending_bar();
   gltf.json["nodes"][0]["scale"] = {0, 0, 0};
   expect_refused(gltf, "cannot be inverted");
-  gltf.json["nodes"][0]["scale"] = {1, 1, 3};
-  expect_refused(gltf, "apply its scale before binding");
+  gltf.json["nodes"][0]["scale"] = {1, 1, 1e-7};
+  expect_refused(gltf, "cannot be inverted");
 }
 
 TEST_F(HostileGltfRig, WhoseJointsLieInOnePointIsRefused) {
   Gltf gltf = bending_bar();
   gltf.json["skins"][0].erase("inverseBindMatrices");
-  gltf.json["nodes"][2].erase("translation");
+  for (const int node : {1, 2}) gltf.json["nodes"][node].erase("translation");
   expect_refused(gltf, "all joints lie in one point; give their nodes different places");
 }
 
@@ -228,7 +226,6 @@ TEST_F(HostileGltfRig, WithWrongTimesIsRefused) {
     for (const std::size_t at : {0, 4})
       expect_refused(with_number(times, at, x), "times hold a number that is not finite");
   expect_refused(with_number(times, 0, -1.0F), "begins at the time -1");
-  expect_refused(with_number(times, 4, 0.0F), "times do not ascend: 0.000000 after 0.000000");
   expect_refused(with_number(times, 0, 2.0F), "times do not ascend: 1.000000 after 2.000000");
   expect_refused_with(accessor(times, "count"), 1, "has 2 values for 1 times");
   expect_refused_with(accessor(times, "count"), 3, "of a bufferView of 8");

@@ -65,8 +65,8 @@ TEST_F(HostileGltf, UnderAnotherExtensionIsRefused) {
   const std::string plain = text_of(write(folder, one_tetrahedron(), Form::embedded));
   expect_refused("a.gltf", packed, "rename it to .glb");
   expect_refused("a.glb", plain, "rename it to .gltf");
-  expect_refused("a.obj", packed, "give a .gltf or .glb file");
-  expect_refused("mesh", plain, "give a .gltf or .glb file");
+  expect_refused("a.obj", packed, "give a .gltf, .glb or .vrm file");
+  expect_refused("mesh", plain, "give a .gltf, .glb or .vrm file");
 }
 
 TEST_F(HostileGltf, ThatIsLargeIsRefusedBeforeItIsRead) {
@@ -224,7 +224,7 @@ TEST_F(HostileGltf, OfTheWrongKindIsRefused) {
   expect_refused_with("/accessors/0/type", "VEC4", "ends at byte 64");
   expect_refused_with("/accessors/0/type", "VEC2", "not VEC3 of 5126");
   expect_refused_with("/accessors/0/componentType", 5124, "componentType is 5124");
-  expect_refused_with("/accessors/0/componentType", 5123, "without quantization");
+  expect_refused_with("/accessors/0/componentType", 5125, "export positions as floats");
   expect_refused_with("/accessors/1/componentType", 5126, "not plain unsigned numbers");
   expect_refused_with("/accessors/1/normalized", true, "not plain unsigned numbers");
   expect_refused_with("/meshes/0/primitives/0/mode", 7, "between 0 and 6");

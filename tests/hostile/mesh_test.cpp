@@ -210,8 +210,6 @@ TEST(Obj, NamesTheLineAtFault) {
            {"f 3 1 99999999999999999999", "a.obj:8: the face's corner"},
            {"f 3 1 4294967297", "a.obj:8: the face names vertex 4294967297"},
            {"f 3 1 x", "a.obj:8: the face's corner 'x'"},
-           {"f 3 1", "a.obj:8: the face has 2 corners"},
-           {"f", "a.obj:8: the face has 0 corners"},
            {"v 1 2", "a.obj:8: the vertex has fewer than 3"},
            {"v 1 2 nan", "a.obj:8: the coordinate 'nan' is not a finite"},
            {"v 1 -inf 2", "a.obj:8: the coordinate '-inf'"},

@@ -144,15 +144,27 @@ TEST_F(ViewState, ColorsTheArrayAskedForWithItsUnit) {
 
 /// The second bone turns about its head by 90 degrees: its far end moves by sqrt(2) times its
 /// length.
-TEST_F(ViewState, TheScaleEndsWhereAllButAHundredthOfTheValuesDo) {
+TEST_F(ViewState, TheScaleEndsWhereAllButHalfAPercentOfTheValuesDo) {
   write_run();
   const SyntheticRun run;
   const auto points = values(state(), "PVLookupTable", "RGBPoints");
-  ASSERT_EQ(points.size(), 20u);
+  ASSERT_EQ(points.size(), 68u);  // 17 colors
   EXPECT_EQ(points[0], "0");
   const double farthest = std::sqrt(2.0) * run.skeleton.bones[1].length;
-  EXPECT_LT(std::stod(points[16]), 1.5 * farthest);
-  EXPECT_GT(std::stod(points[16]), 0.7 * farthest);
+  EXPECT_LT(std::stod(points[64]), 1.5 * farthest);
+  EXPECT_GT(std::stod(points[64]), 0.7 * farthest);
+}
+
+TEST_F(ViewState, TheScaleIsTheRunsOrTheOneAskedFor) {
+  write_run();
+  const auto ends = [&](const ViewOptions& options) {
+    const auto points = values(state(options), "PVLookupTable", "RGBPoints");
+    return points.at(0) + " " + points.at(64);
+  };
+  const ValueRanges known = {{"displacement", {0.5, 3}}, {"speed", {0, 7}}};
+  EXPECT_EQ(ends({.ranges = known}), "0.5 3");
+  EXPECT_EQ(ends({.array = "velocity", .ranges = known}), "0 7");
+  EXPECT_EQ(ends({.range = ValueRange{0, 1e-10}, .ranges = known}), "0 1e-10");
 }
 
 TEST_F(ViewState, ABodyAtRestHasAScaleThatGrows) {

@@ -160,6 +160,14 @@ TEST_F(VtkMesh, BodiesThatReachTheBorderAreClosedThere) {
   EXPECT_EQ(soup("b.vti", image(16, ball)).warning, "");
 }
 
+TEST_F(VtkMesh, ImagesWithoutANegativeSideHaveTheirSurfaceHalfway) {
+  const auto density = [](const Vec3& at) { return 1000 * std::max(0.0, 1 - at.norm()); };
+  const PolygonSoup read = soup("a.vti", image(40, density));
+  const double radius = std::cbrt(volume(triangles_of(read)) * 3 / (4 * pi));
+  EXPECT_NEAR(radius, 0.5, 0.03);
+  EXPECT_NE(read.warning.find("the surface is halfway, at 4"), std::string::npos) << read.warning;
+}
+
 TEST_F(VtkMesh, LegacyImagesAreLevelSets) {
   const std::string head =
       "DATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 3\nORIGIN 0 0 0\nSPACING 1 1 2\nPOINT_DATA 27\n";

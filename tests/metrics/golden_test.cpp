@@ -172,7 +172,7 @@ std::string arrays_text(const Measured& run) {
 /// each line of a chart.
 std::string own_part(std::string page) {
   for (const std::string_view part :
-       {page_style(), chart_library(), scene_library(), page_script()})
+       {page_style(), chart_library(), scene_library(), view_script(), page_script()})
     page.erase(page.find(part), part.size());
   const std::size_t licenses = page.find("<summary>Licenses");
   page.erase(licenses, page.find("</details>", licenses) - licenses);

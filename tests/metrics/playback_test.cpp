@@ -48,12 +48,27 @@ TEST(Playback, ThinsALargeBodyToAPageOfTenMegabytes) {
   for (std::size_t frame = 0, more = 8; more > 0; ++frame)  // as many worst frames as may come
     if (!playback.has(frame)) add_frame(playback, frame, body, state, values), --more;
   EXPECT_LT(playback.particles.size(), body.particles() / 2);
-  ASSERT_EQ(playback.balls.size(), 1u);  // as much of them as of all particles
-  EXPECT_EQ(playback.balls[0].count, playback.particles.size());
-  EXPECT_NEAR(
-      static_cast<double>(playback.particles.size()) * std::pow(playback.balls[0].radius / r, 3),
-      static_cast<double>(body.particles()), 1e-6);
-  EXPECT_TRUE(std::is_sorted(playback.particles.begin(), playback.particles.end()));
+  // What a cut shows covers the area of its layer, and the others have the volume of all others.
+  ASSERT_EQ(playback.balls.size(), 2u);
+  const auto [layer, others] = std::pair(playback.balls[0], playback.balls[1]);
+  EXPECT_EQ(layer.count + others.count, playback.particles.size());
+  const auto end_of_layer = playback.particles.begin() + static_cast<std::ptrdiff_t>(layer.count);
+  EXPECT_TRUE(std::is_sorted(playback.particles.begin(), end_of_layer));
+  EXPECT_TRUE(std::is_sorted(end_of_layer, playback.particles.end()));
+  const Box box = bounds(body.shape.points);
+  const int axis = box.sizes().y() <= 1.01 * box.sizes().x() ? 1 : 0;
+  const auto is_in_layer = [&](std::size_t i) {
+    const double behind = (axis == 1 ? 1 : -1) * (body.shape.points[i][axis] - box.center()[axis]);
+    return behind >= 0 && behind <= 2.5 * r;
+  };
+  EXPECT_TRUE(std::all_of(playback.particles.begin(), end_of_layer, is_in_layer));
+  EXPECT_TRUE(std::none_of(end_of_layer, playback.particles.end(), is_in_layer));
+  std::size_t beside = 0;
+  for (std::size_t i = 0; i < body.particles(); ++i) beside += !is_in_layer(i);
+  EXPECT_NEAR(static_cast<double>(layer.count) * std::pow(layer.radius / r, 2),
+              static_cast<double>(body.particles() - beside), 1e-6);
+  EXPECT_NEAR(static_cast<double>(others.count) * std::pow(others.radius / r, 3),
+              static_cast<double>(beside), 1e-6);
   EXPECT_LT(playback_json(playback).size(), 8u << 20);
 }
 

@@ -225,8 +225,8 @@ TEST(Verdict, SaysInWordsWhatTheWorstFramesAre) {
   EXPECT_EQ(items[2].level, Level::fair);
   EXPECT_EQ(items[3].value, "10.00 %");
   EXPECT_EQ(items[3].level, Level::poor);
-  EXPECT_EQ(items[4].label, "residual after the return");
-  EXPECT_EQ(items[4].value, "0.10 r");
+  EXPECT_EQ(items[4].label, "residual after the return, rms and maximum");
+  EXPECT_EQ(items[4].value, "0.10 r, 2.0 r at most");
 }
 
 TEST(Verdict, GivesReasonsForDistrust) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/render/color.h>
+#include <sinew/core/color.h>
 
 #include <gtest/gtest.h>
 
@@ -71,6 +71,14 @@ TEST(Color, ink_is_read_on_its_background) {
     const Paper paper = paper_of(named.color);
     EXPECT_GT(std::abs(oklab(paper.ink)[0] - oklab(paper.background)[0]), 0.28) << named.name;
   }
+}
+
+TEST(ReadableOn, StandsOutFromAnyPaper) {
+  for (const Color& paper :
+       {Color{255, 255, 255}, Color{21, 24, 29}, Color{0, 0, 0}, Color{128, 128, 128}})
+    for (const Color& ink : {palette::bone, palette::held, palette::faint_ink, palette::loaded})
+      EXPECT_GE(std::abs(oklab(readable_on(paper, ink))[0] - oklab(paper)[0]), 0.27);
+  EXPECT_EQ(readable_on({255, 255, 255}, palette::bone), palette::bone);
 }
 
 }  // namespace sinew::color_test

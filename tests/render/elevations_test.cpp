@@ -75,6 +75,21 @@ TEST(Elevations, show_skin_bones_and_the_sample_from_two_sides) {
   }
 }
 
+TEST(Elevations, of_flat_bodies_have_a_third_side) {
+  Snapshot flat;
+  flat.surface.points = {{0, 0, 0},    {1, 0, 0},    {1, 1, 0},    {0, 1, 0},
+                         {0, 0, 0.25}, {1, 0, 0.25}, {1, 1, 0.25}, {0, 1, 0.25}};
+  flat.surface.faces = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                        {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  const auto left_over_right = [&] {
+    const Image image = drawn(flat);
+    return painted(image, 0, 20, 320, 270) / painted(image, 320, 20, 320, 270);
+  };
+  EXPECT_NEAR(left_over_right(), 2, 0.4);  // the top beside the front and the side
+  for (std::size_t k = 4; k < 8; ++k) flat.surface.points[k].z() = 1;
+  EXPECT_NEAR(left_over_right(), 1, 0.1);
+}
+
 TEST(Elevations, mark_what_is_held_and_muscles) {
   Snapshot snapshot = plan();
   snapshot.bones.clear();

@@ -187,12 +187,49 @@ TEST(Picture, obstacles_end_with_their_space) {
   EXPECT_NEAR(painted(painter.draw(snapshot, options)), 4 / 48.0, 0.005);
 }
 
-TEST(Picture, held_particles_are_dark) {
+TEST(Picture, what_is_left_out_is_pale_where_nothing_else_is) {
+  Snapshot snapshot = synthetic_snapshot(0, 0);
+  snapshot.bones.clear();
+  const double middle = bounds(snapshot.surface.points).center().z();
+  for (const Vec3& point : snapshot.surface.points)
+    snapshot.skin_sides.push_back(point.z() - middle);
+  snapshot.particles.clear(), snapshot.values.clear(), snapshot.marks.clear();
+  for (const Finish finish : finishes) {
+    PictureOptions options = options_for(snapshot, View::surface, finish);
+    Painter painter(snapshot.surface, synthetic_scale());
+    const Image half = painter.draw(snapshot, options);
+    snapshot.opened = true;
+    const Image opened = painter.draw(snapshot, options);
+    snapshot.opened = false;
+    EXPECT_GT(painted(opened), 1.6 * painted(half));
+    int changed = 0, own = 0;
+    for (int y = 2; y < half.height - 2; ++y)
+      for (int x = 2; x < half.width - 2; ++x) {
+        const auto is_painted = [&](int dx, int dy) {
+          const auto* at = half.at(x + dx, y + dy);
+          return at[0] < 250 || at[1] < 250 || at[2] < 250;
+        };
+        if (!(is_painted(0, 0) && is_painted(2, 0) && is_painted(-2, 0) && is_painted(0, 2) &&
+              is_painted(0, -2)))
+          continue;  // the edge is blended
+        ++own;
+        changed += !std::equal(half.at(x, y), half.at(x, y) + 3, opened.at(x, y));
+      }
+    EXPECT_GT(own, 1000);
+    EXPECT_EQ(changed, 0);
+  }
+}
+
+TEST(Picture, held_particles_keep_their_color_with_a_dark_dot) {
   Snapshot snapshot = two_spheres(three_quarter_view());
   snapshot.marks = {Mark::held, Mark::none};
   Painter painter({}, {"value", "", 0, 1});
   const Image image = painter.draw(snapshot, options_for(snapshot, View::particles));
   EXPECT_LT(image.at(35, 120)[2], 80);
+  EXPECT_GT(image.at(35, 134)[2], 110);  // the lowest color, indigo
+  snapshot.values.clear();
+  EXPECT_LT(painter.draw(snapshot, options_for(snapshot, View::particles)).at(35, 134)[2], 80);
+  snapshot.values = {0, 1};
   EXPECT_GT(image.at(285, 120)[0], 150);
   snapshot.marks.pop_back();
   EXPECT_EQ(error_of([&] { painter.draw(snapshot, options_for(snapshot, View::both)); }).exit(),

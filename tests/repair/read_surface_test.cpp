@@ -142,6 +142,46 @@ TEST(Read, TellsWhatIsNotRead) {
       "");
 }
 
+TEST(Read, LeavesOutFacesOfFewerThanThreeCorners) {
+  const Folder folder;
+  PolygonSoup flat = shapes::tetrahedron();
+  flat.polygons.insert(flat.polygons.begin() + 1, {0, 1});
+  flat.polygons.push_back({2});
+  for (const auto& [name, text] : {std::pair("a.obj", mesh_files::obj(flat)),
+                                   {"a.off", mesh_files::off(flat)},
+                                   {"a.ply", mesh_files::ply(flat)},
+                                   {"b.ply", mesh_files::ply_binary(flat)}}) {
+    const PolygonSoup soup = read_polygons(folder.file(name, text));
+    EXPECT_EQ(soup.polygons, shapes::tetrahedron().polygons) << name;
+    EXPECT_EQ(soup.warning, "2 faces have fewer than three corners: left out") << name;
+  }
+  PolygonLook look;
+  EXPECT_EQ(read_obj_look(folder.path("a.obj"), look).polygons.size(), 4u);
+  EXPECT_EQ(look.look.part.size(), 4u);
+  EXPECT_EQ(look.corners.size(), 4u);
+  flat.polygons = {{0, 1}};
+  test::expect_bad_input([&] { read_polygons(folder.file("c.off", mesh_files::off(flat))); },
+                         {"no faces but 1 face has fewer than three corners"});
+}
+
+TEST(Read, TakesStlAsExported) {
+  const Folder folder;
+  const auto soup = shapes::tetrahedron();
+  std::string text = mesh_files::stl(soup);
+  text.replace(text.rfind("endsolid body"), 13, "end solid body");
+  EXPECT_EQ(read_polygons(folder.file("a.stl", text)).polygons.size(), 4u);
+  EXPECT_EQ(read_polygons(folder.file("b.stl", text + text)).polygons.size(), 8u);
+  std::string colored = mesh_files::stl_binary(soup), stuffed = colored;
+  for (std::size_t i = 1; i <= 4; ++i) colored[84 + 50 * i - 1] = '\x7f';
+  EXPECT_EQ(read_polygons(folder.file("c.stl", colored)).polygons.size(), 4u);
+  for (std::size_t i = 4; i > 0; --i) {
+    stuffed[84 + 50 * i - 2] = 5;
+    stuffed.insert(84 + 50 * i, "12345");
+  }
+  test::expect_bad_input([&] { read_polygons(folder.file("d.stl", stuffed)); },
+                         {"20 bytes of attributes", "without attributes"});
+}
+
 TEST(Read, TakesLinesOfOldMacs) {
   const Folder folder;
   const auto soup = shapes::tetrahedron();

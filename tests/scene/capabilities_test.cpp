@@ -179,6 +179,13 @@ const std::map<Feature, Choose>& choices() {
          added(s.loads).pressure = 1;
          s.loads.back().part = top();
        }},
+      {springs,
+       [](Settings& s) {
+         auto& spring = added(s.world.springs);
+         spring.at = Vec3(0, 0, 0.12);
+         spring.stiffness = 1;
+         spring.keys = {{0, Vec3(0, 0, 0.13), 1}};
+       }},
   };
   return all;
 }
@@ -280,10 +287,10 @@ TEST(Capabilities, AreThereWhereNothingExcludesThem) {
 }
 
 TEST(Capabilities, OfABodyAreThoseOfItsScene) {
-  const Features of_both = {groups,          paper,         part_volume, part_density, breaking,
-                            yielding,        relaxing,      drag,        friction,     pass_through,
-                            fields,          max_force,     obstacles,   muscles,      pressures,
-                            rough_obstacles, mesh_obstacles};
+  const Features of_both = {
+      groups,    paper,   part_volume, part_density,    breaking,       yielding,
+      relaxing,  drag,    friction,    pass_through,    fields,         max_force,
+      obstacles, muscles, pressures,   rough_obstacles, mesh_obstacles, springs};
   for (const auto& [feature, choose] : choices()) {
     Settings scene = bar();
     choose(scene);

@@ -88,7 +88,7 @@ TEST(MachineSettings, MistakesAreNamedWithTheirLine) {
         Mistake{"loads:\n  - {name: a, force: [0, 0, 1], pressure: 1}\n",
                 "load 'a' has more than one kind of load"},
         Mistake{"supports:\n  - name: a\nloads:\n  - {name: a, pressure: 1}\n",
-                "a support and a load are both named 'a'"},
+                "two of supports, loads and springs are named 'a'"},
         Mistake{"probes:\n  - {name: a, at: [0, 0, 0], ids: [1]}\n",
                 "probe 'a' has a point and a part; keep one"},
         Mistake{"support:\n  - name: a\n", "unknown key 'support'"}})

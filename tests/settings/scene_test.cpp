@@ -191,6 +191,33 @@ TEST_F(SceneTest, OverridesAddSectionsThatAreMissing) {
   EXPECT_EQ(read(small_scene, {"output.encoding=raw"}).output.encoding, Encoding::raw);
 }
 
+TEST_F(SceneTest, OverridesReachEntriesOfListsByNameAndByPlace) {
+  const std::string loads =
+      "loads:\n  - {name: tip, force: [0, 0, 1]}\n  - {name: a.b=c, force: [0, 0, 2]}\n";
+  const Settings named =
+      read(small_scene + loads, {"loads[tip].force=[1, 0, 0]", "loads[a.b=c].force=[3, 0, 0]",
+                                 "skeleton.bones[lower].tail=[0, 0, 2]"});
+  EXPECT_EQ(named.loads[0].force.value()[0], 1);
+  EXPECT_EQ(named.loads[1].force.value()[0], 3);
+  EXPECT_EQ(named.bones[0].tail.value()[2], 2);
+  const Settings numbered = read(small_scene + loads, {"loads[1].force=[0, 5, 0]"});
+  EXPECT_EQ(numbered.loads[0].force.value()[2], 1);
+  EXPECT_EQ(numbered.loads[1].force.value()[1], 5);
+  const std::string bodies = "material: {model: bonded}\nbodies:\n  - {mesh: box.obj}\n";
+  EXPECT_EQ(read(small_scene + bodies, {"bodies[0].young_modulus=5"}).bodies[0].young_modulus, 5);
+}
+
+TEST_F(SceneTest, OverridesOfEntriesThatAreNotThereNameThoseThatAre) {
+  const std::string loads =
+      "loads:\n  - {name: tip, force: [0, 0, 1]}\n  - {name: top, force: [0, 0, 2]}\n";
+  for (const auto& [set, words] : std::vector<std::pair<std::string, std::string>>{
+           {"loads[tap].force=[0, 0, 1]", "'loads' has no entry 'tap'; choose from tip, top"},
+           {"loads[2].force=[0, 0, 1]", "choose from tip, top"},
+           {"loads.force=[0, 0, 1]", "name one of its entries, as loads[...]: tip, top"},
+           {"supports[grip].hold=true", "the scene has no list 'supports'"}})
+    EXPECT_TRUE(holds(message(small_scene + loads, {set}), words)) << set;
+}
+
 TEST_F(SceneTest, WrongOverridesAreNamed) {
   EXPECT_TRUE(holds(message(small_scene, {"body.radius=big"}), "--set body.radius=big: "));
   EXPECT_TRUE(holds(message(small_scene, {"body.raduis=1"}), "did you mean radius?"));
@@ -199,6 +226,32 @@ TEST_F(SceneTest, WrongOverridesAreNamed) {
   EXPECT_TRUE(holds(message(small_scene, {"duration=1"}), "section.key=value"));
   EXPECT_TRUE(holds(message(small_scene, {"solver.duration"}), "section.key=value"));
   EXPECT_TRUE(holds(message(small_scene, {"solver.duration="}), "is empty"));
+}
+
+TEST_F(SceneTest, EveryPresetSetsItsValuesAndNamesItsSource) {
+  for (const MaterialPreset& preset : material_presets()) {
+    const std::string name(preset.name);
+    const MaterialOptions found = read(small_scene + "material: {preset: " + name + "}\n").material;
+    EXPECT_EQ(found.density, preset.density) << name;
+    EXPECT_EQ(found.young_modulus, preset.young_modulus) << name;
+    EXPECT_EQ(found.poisson_ratio, preset.poisson_ratio) << name;
+    EXPECT_EQ(found.damping_ratio, preset.damping_ratio) << name;
+    EXPECT_EQ(found.yield_strain, preset.yield_strain) << name;
+    EXPECT_EQ(preset_named(found.preset), &preset) << name;
+    // Poisson's ratio must be one that the scene could give itself.
+    read(small_scene + "material: {poisson_ratio: " + std::to_string(preset.poisson_ratio) + "}\n");
+    EXPECT_FALSE(preset.what.empty() || preset.source.empty()) << name;
+  }
+  EXPECT_EQ(preset_named(MaterialPresetName::none), nullptr);
+}
+
+TEST_F(SceneTest, SiliconesByHardnessHaveGentsModuli) {
+  const auto modulus = [&](const char* name) {
+    return read(small_scene + "material: {preset: " + name + "}\n").material.young_modulus;
+  };
+  EXPECT_NEAR(modulus("silicone_20a"), 0.732e6, 1e3);  // Gent (1958), worked out by hand
+  EXPECT_NEAR(modulus("silicone_40a"), 1.69e6, 1e4);
+  EXPECT_NEAR(modulus("silicone_60a"), 3.61e6, 1e4);
 }
 
 TEST_F(SceneTest, RayleighsDampingStandsAlone) {

@@ -202,7 +202,7 @@ TEST(Progress, TextLeavesOutWhatIsUnknown) {
   EXPECT_EQ(progress_text(30, 90, 1, 0, 3725), "frame 30/90  time 1 s  1:02:05 left");
   EXPECT_EQ(progress_text(90, 90, 3, 0, 0), "frame 90/90  time 3 s");
   EXPECT_EQ(progress_text(30, 90, 1, 0, 0, 0.314),
-            "frame 30/90  time 1 s  31 % spent waiting for the disk");
+            "frame 30/90  time 1 s  31 % spent waiting for frames to be written");
   EXPECT_EQ(progress_text(30, 90, 1, 0, 0, 0.04), "frame 30/90  time 1 s");
   EXPECT_EQ(iterations_text(1, 2, 0.5, 3000, 0.0012),
             "frame 1/2  time 0.5 s  3000 iterations, residual 0.0012");
@@ -247,7 +247,39 @@ TEST(Progress, OfALongStageTellsTheTimeLeft) {
     progress.at(2, 4), progress.at(4, 4);
   }
   std::fclose(out);
-  EXPECT_EQ(content(file), "\rmeasuring 50 %  0:02 left\rmeasuring 100 %          \n");
+  EXPECT_EQ(content(file), "\rmeasuring 50 %  0:03 left\rmeasuring 100 %          \n");
+}
+
+TEST(Progress, OfAStageThatIsReadLateTellsTheTimeLeftFromThereOn) {
+  const TempFolder folder;
+  const auto file = folder.path() / "err";
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  {
+    StageProgress progress("movie", ProgressStyle::rewritten, out);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    for (std::size_t done = 1; done <= 50; ++done) progress.at(done, 100);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    progress.at(55, 100);
+  }
+  std::fclose(out);
+  EXPECT_EQ(content(file), "\rmovie 55 %  0:03 left\n");
+}
+
+TEST(Progress, CountsWhatIsWaitedFromItsFirstFrameOn) {
+  const TempFolder folder;
+  const auto file = folder.path() / "err";
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  {
+    Progress progress(4, ProgressStyle::lines, out);
+    progress.frame(0, 0, 0, 9);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    progress.frame(2, 2, 2, 9);
+    progress.frame(4, 4, 4, 19);
+  }
+  std::fclose(out);
+  const std::string text = content(file);
+  EXPECT_EQ(text.find("waiting"), text.find("waiting for frames", text.find("frame 4/4"))) << text;
+  EXPECT_TRUE(holds(text, "  100 % spent waiting")) << text;
 }
 
 TEST(Progress, OfWhatCannotBeForetoldCountsSeconds) {

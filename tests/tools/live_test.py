@@ -6,6 +6,7 @@ MODULES is the folder filled by get_paraview_python.sh."""
 import json
 import os
 import re
+import signal
 import struct
 import subprocess
 import sys
@@ -89,18 +90,22 @@ class Live(unittest.TestCase):
         return subprocess.run([BIN / "sinew", "view", self.run_folder, *words], capture_output=True, text=True,
                               timeout=250, env=environment)
 
-    def state(self):
-        """What ParaView is started on."""
+    def with_paraview(self, what):
+        """PATH with a ParaView in front that does this with the state that it is started on."""
         programs = self.folder / "programs"
         programs.mkdir()
-        (programs / "paraview").write_text(f'#!/bin/sh\n[ "$1" = --version ] || cp "${{1#--state=}}" "{self.folder}/live.pvsm"\n')
+        (programs / "paraview").write_text(f'#!/bin/sh\n[ "$1" = --version ] && exit\nstate=${{1#--state=}}\n{what}\n')
         (programs / "paraview").chmod(0o755)
-        done = self.view("--live", PATH=f"{programs}:/usr/bin:/bin")
+        return f"{programs}:/usr/bin:/bin"
+
+    def state(self, *words):
+        """What ParaView is started on."""
+        done = self.view("--live", *words, PATH=self.with_paraview(f'cp "$state" "{self.folder}/live.pvsm"'))
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.folder / "live.pvsm"
 
-    def follow(self, frames):
-        state, script = self.state(), self.folder / "follow.py"
+    def follow(self, frames, *words):
+        state, script = self.state(*words), self.folder / "follow.py"
         script.write_text(FOLLOW)
         done = subprocess.run([PARAVIEW, MODULES, script, SOURCE / "tools/paraview", state, str(frames), self.picture],
                               capture_output=True, text=True, timeout=250)
@@ -123,9 +128,28 @@ class Live(unittest.TestCase):
         self.assertEqual((width, height), (800, 400))
         self.assertGreater(len(set(bytes_)), 100)
 
+    def test_a_range_that_was_asked_for_stays_though_values_exceed_it(self):
+        self.start_run(2000, 0.05)
+        self.assertEqual([row[1:] for row in self.follow(3, "--range", "0.001,0.002")], [[0.001, 0.002]] * 3)
+
     def test_a_finished_run_shows_its_last_frame(self):
         self.start_run(3, 0, "finished").wait()
         self.assertEqual([row[0] for row in self.follow(1)], [1])
+
+    def test_ended_by_a_signal_it_ends_paraview_and_leaves_no_folder(self):
+        self.start_run(3, 0).wait()
+        path = self.with_paraview(f'echo $$ > "{self.folder}/begun.new"; mv "{self.folder}/begun.new" "{self.folder}/begun"\nexec sleep 200')
+        for ending in (signal.SIGTERM, signal.SIGHUP):
+            environment = {**os.environ, "PYTHONPATH": PYTHON, "DISPLAY": ":77", "TMPDIR": str(self.folder), "PATH": path}
+            viewer = subprocess.Popen([BIN / "sinew", "view", self.run_folder, "--live"], env=environment)
+            while not (self.folder / "begun").exists() and viewer.poll() is None:
+                time.sleep(0.05)
+            begun = int((self.folder / "begun").read_text())
+            (self.folder / "begun").unlink()
+            viewer.send_signal(ending)
+            self.assertNotEqual(viewer.wait(timeout=60), 0)
+            self.assertFalse(Path(f"/proc/{begun}").exists())
+            self.assertEqual(list(self.folder.glob("sinew-view-*")), [])
 
     def test_without_a_display_it_says_how_to_draw(self):
         self.start_run(3, 0).wait()

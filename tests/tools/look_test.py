@@ -6,6 +6,7 @@ usage: look_test.py BIN SOURCE MODULES      folder of the programs, of the proje
                                             get_paraview_python.sh
 """
 import fcntl
+import json
 import os
 import resource
 import shutil
@@ -192,6 +193,18 @@ class ViewPreset(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.names(), ["compare_body.mp4", "compare_body_000004.png",
                                         "compare_body_sheet.png"])
+
+    def test_two_runs_side_by_side_have_one_range(self):
+        """That of both, whichever comes first; each keeps its own in its record."""
+        told, own = [], []
+        for one, other in ((self.run_folder, self.bonded), (self.bonded, self.run_folder)):
+            done = sinew("render", one, "--compare", other, "-o", self.pictures, *SIZE, "--no-movie", "--times", "0.2",
+                         "--view", "strain", "--json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            told.append(json.loads(done.stdout)["ranges"]["strain_eq"])
+            own.append(json.loads((one / "run.json").read_text())["ranges"]["strain_eq"])
+        self.assertNotEqual(*own)
+        self.assertEqual(told, 2 * [[min(low for low, _ in own), max(high for _, high in own)]])
 
     def test_large_pictures_take_little_memory(self):
         words = ["render", self.run_folder, "-o", self.pictures, "--no-movie", "--times", "0.2",

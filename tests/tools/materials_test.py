@@ -121,7 +121,7 @@ output: {{interval: 1}}
 """)
         before = sinew("check", path, "--json")
         checked = json.loads(before.stdout)
-        self.assertRegex(before.stderr, "is pulled between 'below' and 'above' .* Pa, 39 % softer")
+        self.assertRegex(before.stderr, "is pulled between 'below' and 'above' .* k?Pa, 39 % softer")
         (span,) = checked["along_spans"]
         self.assertFalse(span["bends"])
         self.assertAlmostEqual(span["young_modulus"] / E, 0.9428 / 1.3505, 3)

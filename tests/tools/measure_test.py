@@ -138,7 +138,20 @@ class Measure(unittest.TestCase):
 
     def test_limits_hold_for_the_differences(self):
         two = [self.runs / "paper", self.runs / "bonded", "-o", self.out]
-        sinew("measure", *two, "--fail-on", "reference_particles_max > 1", check=0)
+        told = sinew("measure", *two, "--fail-on", "reference_particles_max > 1", check=0).stdout.splitlines()
+        self.assertRegex(told[0], r"compared: paper and bonded, 10 frames, particles up to \S+ m apart")
+        self.assertEqual((len(told), told[-1]), (12, f"report: {self.out}/report.html"))
+        table = rows(self.out / "compare.csv")
+        largest = {}
+        for line in told[1:-1]:
+            name, a, b, unit, time = re.fullmatch(r"(\w+): (\S+) and (\S+)( .+)?, at (\S+) s", line).groups()
+            row = min(table, key=lambda row: abs(row["time"] - float(time)))
+            self.assertAlmostEqual(float(a), row[name + "_a"], delta=abs(row[name + "_a"]) / 100)
+            self.assertAlmostEqual(float(b), row[name + "_b"], delta=abs(row[name + "_b"]) / 100)
+            ends = [abs(row[name + end]) for row in table for end in ("_a", "_b")]
+            largest[name] = abs(row[name + "_difference"]) / max(end for end in ends if not math.isnan(end))
+        self.assertEqual(list(largest.values()), sorted(largest.values(), reverse=True))
+        self.assertEqual(len(largest), 10)
         done = sinew("measure", *two, "--fail-on", "reference_particles_max > 1e-9", check=1)
         self.assertIn("reference_particles_max", done.stderr)
         self.assertFalse(json.loads((self.out / "metrics.json").read_text())["checks"][0]["pass"])

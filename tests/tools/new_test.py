@@ -270,6 +270,16 @@ class New(unittest.TestCase):
         self.assertLess(work, 5e8)
         self.assertTrue(work > 4e8 or checked["particles"] > 8e4, (work, checked["particles"]))
 
+    def test_a_quick_scene_takes_a_thirtieth_of_the_work_and_new_says_how_long(self):
+        found = self.make(SOURCE / "data/meshes/creature.ply", SOURCE / "data/motions/walk.bvh", "--quick")
+        self.assertRegex(found["time"], r"^about \d+ s for a run on this machine, \S+ s of them steps$")
+        checked = json.loads(sinew("check", self.scene, "--json", check=0).stdout)
+        self.assertLess(checked["particles"] * checked["steps"], 5e8 / 30)
+        self.assertLessEqual((checked["duration"], checked["frames"]), (2, 21))
+        self.runs(times=1)
+        slow = sinew("new", SOURCE / "data/meshes/two_fingers.obj", "-o", self.scene, "--force", check=0).stdout
+        self.assertRegex(slow, "\ntime: about ")
+
     def test_a_rig_alone_is_as_tall_as_a_human(self):
         units = {"meters": 1, "centimeters": 100, "inches": 1 / 0.0254, "CMU": 0.45 / 0.0254, "millimeters": 1000}
         for word, unit in units.items():
@@ -301,6 +311,60 @@ class New(unittest.TestCase):
         self.assertIn("tracks:", self.scene.read_text())
         self.assertNotIn("clip:", self.scene.read_text())
         self.runs()
+
+    def test_a_clip_without_a_skin_moves_the_rig_and_the_weights_of_the_mesh(self):
+        def without_skin(document):
+            del document["skins"], document["meshes"]
+            for node in document["nodes"]:
+                node.pop("mesh", None), node.pop("skin", None)
+            document["animations"] = [a for a in document["animations"] if a["name"] == "wag"]
+            next(node for node in document["nodes"] if node.get("name") == "tail")["name"] = "coil"
+
+        fox, clip = SOURCE / "data/motions/fox.glb", self.folder / "clip.glb"
+        clip.write_bytes(edited(fox.read_bytes(), without_skin))
+        told = json.loads(sinew("info", clip, "--json").stdout)
+        self.assertEqual(told["bones"], 3)
+        self.assertNotIn("points", told)
+        self.make(fox, clip, "--count", "3000", "--duration", "0.25")
+        text = self.scene.read_text()
+        for line in ("clip.glb\n", "fox.glb\n", "method: file", "duration: 0.25", "About 3"):
+            self.assertIn(line, text)
+        told = sinew("check", self.scene, check=0)
+        self.assertRegex(told.stderr, "moves 1 node that the skeleton lacks: 'coil'")
+        self.assertRegex(told.stderr, "does not move [0-9]+ of 21 joints: ")
+
+    def test_a_clip_of_other_names_has_a_table_in_the_scene(self):
+        def of_mixamo(document):
+            del document["skins"], document["meshes"]
+            for node in document["nodes"]:
+                node.pop("mesh", None), node.pop("skin", None)
+                node["name"] = "mixamorig:" + node.get("name", "").upper()
+
+        fox, clip = SOURCE / "data/motions/fox.glb", self.folder / "clip.glb"
+        clip.write_bytes(edited(fox.read_bytes(), of_mixamo))
+        self.make(fox, clip, "--clip", "wag", "--quick")
+        for line in ('- [tail, "mixamorig:TAIL"]', "clip.glb\n", "fox.glb\n", "method: file"):
+            self.assertIn(line, self.scene.read_text())
+        told = sinew("check", self.scene, check=0)
+        self.assertRegex(told.stderr, "motion.names moves all but [0-9]+ of 21 bones: ")
+        wrong = self.scene.read_text().replace("mixamorig:TAIL", "tale")
+        self.scene.write_text(wrong)
+        self.assertRegex(sinew("check", self.scene).stderr, r"scene.yaml:[0-9]+:[0-9]+: there is no joint 'tale' in the clip; ")
+
+    def test_meshes_are_chosen_by_their_names(self):
+        fox = SOURCE / "data/motions/fox.glb"
+        self.make(fox, "--meshes", "fox", "--quick")
+        for line in ("fox.glb\n", "method: file"):
+            self.assertIn(line, self.scene.read_text())
+        wrong = sinew("new", fox, "--meshes", "foxs", "--force", "-o", self.scene)
+        self.assertIn("there is no mesh 'foxs'; did you mean fox?", wrong.stderr)
+
+    def test_a_clip_is_chosen_by_its_name(self):
+        self.make(SOURCE / "data/motions/fox.glb", "--clip", "wag", "--quick")
+        self.assertIn("clip: wag", self.scene.read_text())
+        wrong = sinew("new", SOURCE / "data/motions/fox.glb", "--clip", "wagg", "--force", "-o", self.scene)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("did you mean wag?", wrong.stderr)
 
     def test_a_rig_in_centimeters_becomes_as_large_as_in_meters(self):
         small, large = SOURCE / "data/motions/fox.glb", self.folder / "large.glb"

@@ -54,3 +54,4 @@ fi
 "$work/installed/bin/sinew" --version
 "$work/installed/bin/sinew" info --help >/dev/null
 test -s "$work/installed/share/sinew/paraview/sinew_paraview.py"  # which sinew view --live loads
+"$source/tools/install_packages.sh" --list test | grep -x libqt5svg5 >/dev/null  # icons of ParaView's buttons

@@ -69,7 +69,7 @@ class Scenes(SmallRun):
     def test_a_scene_is_filled_as_it_says(self):
         scene = sinew.read_scene(self.scene)
         self.assertEqual(sinew.fill(scene).radius, 0.025)
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(sinew.Error, "a scene says itself"):
             sinew.fill(scene, radius=0.01)
 
     def test_steps_are_as_the_commands(self):
@@ -89,7 +89,7 @@ class Scenes(SmallRun):
         self.assertAlmostEqual(run[-1].time, 0.4)
         numpy.testing.assert_allclose(run.times, [run[i].time for i in range(13)])
         moved = numpy.linalg.norm(run[6].positions - run.rest, axis=1)
-        numpy.testing.assert_allclose(moved, run[6].displacement, atol=1e-6)
+        numpy.testing.assert_allclose(moved, run[6].distance, atol=1e-6)
         command("measure", self.out, check=0)
         columns = sinew.measure(self.out)
         table = numpy.genfromtxt(self.out / "metrics.csv", delimiter=",", names=True)
@@ -142,9 +142,10 @@ class Examples(SmallRun):
 
     def test_a_study_of_parameters(self):
         rows = self.example("parameter_study.py", self.scene).splitlines()[1:]
-        far = [float(row.split()[1]) for row in rows]
-        self.assertEqual(len(far), 3)
-        self.assertTrue(all(distance > 0 for distance in far))
+        moduli, damping, far = numpy.array([row.split() for row in rows], float).T
+        numpy.testing.assert_array_equal(moduli, [5e3, 5e3, 1e4, 1e4, 2e4, 2e4])
+        numpy.testing.assert_array_equal(damping, [0.5, 1] * 3)
+        self.assertTrue((far > 0).all() and len(set(far)) == 6)
 
     def test_a_force_of_ones_own(self):
         words = self.example("own_force.py", SOURCE / "data/meshes/tentacle.ply").split()
@@ -372,8 +373,10 @@ class Made(unittest.TestCase):
         with self.assertRaisesRegex(sinew.Error, "below 0"):
             simulation.step(-1)
         simulation.step(2)
-        simulation.run_until(0)
+        simulation.run_until(simulation.time)
         self.assertEqual(simulation.steps, 2)
+        with self.assertRaisesRegex(sinew.Error, "0 s is past: the simulation is at .*; give a later time"):
+            simulation.run_until(0)
         code = "import sinew, sys; exec(sys.argv[1]); simulation.step(2**63 - 1)"
         child = subprocess.Popen([sys.executable, "-c", code, self.code_of_simulation() + "simulation.step(3); print(1, flush=True)"],
                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
@@ -398,8 +401,9 @@ class Made(unittest.TestCase):
     def test_objects_that_nobody_has_made(self):
         """Called in another process: what is tested is that it does not crash."""
         code = "import sinew\n" + self.code_of_simulation() + """
-for kind in (sinew.Simulation, sinew.Body, sinew.Scene, *(getattr(sinew._sinew, name) for name in
-             ("_Run", "_Frame", "_Dataset", "_Surface", "_Polygons", "_RunMeter", "_RunCells"))):
+for kind in (getattr(sinew._sinew, name) for name in
+             ("_Simulation", "_Body", "_Scene", "_State", "_RestShape", "_Run", "_Frame", "_Dataset", "_Surface", "_Polygons",
+              "_RunMeter", "_RunCells")):
     thing = kind.__new__(kind)
     for name in dir(kind):
         if name.startswith("__") and name not in ("__len__", "__str__", "__getitem__", "__repr__"):
@@ -410,9 +414,11 @@ for kind in (sinew.Simulation, sinew.Body, sinew.Scene, *(getattr(sinew._sinew, 
                 value(*words)
             except (TypeError, RuntimeError, IndexError, ValueError, sinew.Error):
                 pass
-for use in (lambda: sinew.Simulation(sinew.Scene.__new__(sinew.Scene)), lambda: sinew.fill(sinew.Scene.__new__(sinew.Scene)),
-            lambda: sinew.Simulation(sinew.make_scene({}), sinew.Body.__new__(sinew.Body)),
-            lambda: simulation.restore(sinew._sinew.State.__new__(sinew._sinew.State))):
+native = sinew._sinew
+unmade = lambda kind: kind.__new__(kind)
+for use in (lambda: native._Simulation(unmade(native._Scene), None, False), lambda: native._fill_scene(unmade(native._Scene)),
+            lambda: native._Simulation(scene._native, unmade(native._Body), False),
+            lambda: simulation._native.restore(unmade(native._State))):
     try:
         use()
     except (TypeError, RuntimeError, sinew.Error):
@@ -425,12 +431,13 @@ print("alive")
     def test_nothing_is_pickled_or_copied(self):
         """In another process, which such an attempt must not end."""
         code = "import copy, copyreg, pickle, sinew\n" + self.code_of_simulation() + """
-things = (simulation, body, scene, simulation.save(), sinew.RestShape(body.points, 0.005),
-          simulation._dataset("particles"))
-for thing in things:
+shape = sinew.RestShape(body.points, 0.005)
+held = (simulation, body, scene, shape)
+for thing in (*held, *(one._native for one in (*held, simulation.save(), simulation.dataset()))):
     for use in (*(lambda thing, protocol=protocol: pickle.dumps(thing, protocol) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)),
                 *(lambda thing, protocol=protocol: thing.__reduce_ex__(protocol) for protocol in range(5)),
-                lambda thing: copyreg._reduce_ex(thing, 0), copy.copy, copy.deepcopy, lambda thing: type(thing).__base__()):
+                copy.copy, copy.deepcopy, *([] if thing in held else
+                [lambda thing: copyreg._reduce_ex(thing, 0), lambda thing: type(thing).__base__()])):
         try:
             use(thing)
         except TypeError as error:
@@ -474,6 +481,7 @@ print("alive")
         points = os.path.join(os.environ.get("TMPDIR", "/tmp"), f"points{os.getpid()}.npy")
         numpy.save(points, self.body.points)
         child = subprocess.Popen([sys.executable, "-c", code, ".", points, repr(BAR)], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(child.kill)
         self.assertEqual(child.stdout.readline(), "ready\n")
         time.sleep(0.5)
         child.send_signal(signal.SIGINT)

@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-NAMES = ("settings", "arrays", "series", "metrics", "bones", "sections", "capabilities")
+NAMES = ("settings", "arrays", "series", "metrics", "bones", "sections", "capabilities", "presets")
 TABLE = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end of table -->)", re.S)
 CODE = re.compile(r"^```.*?^```", re.S | re.M)
 LINK = re.compile(r"\]\(([^)\s]+)\)|src=\"([^\"]+)\"")

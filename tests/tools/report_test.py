@@ -47,6 +47,8 @@ function point(kinds, across, up) {
 const click = ["pointerdown", "pointerup", "click"];
 async function visit() {
   keep("start");
+  states.start.controls = ["play", "scale"].map((id) => document.getElementById(id).getBoundingClientRect())
+    .map((box) => box.width > 0 && box.bottom + scrollY);
   if (states.start.webgl) {
     const last = document.getElementById("time").max;
     set("time", (states.start.snapshot + Math.floor(last / 2)) % (Number(last) + 1), "input"); keep("middle");
@@ -122,7 +124,7 @@ def visit(*options, change=None):
         text = DATA.sub(lambda _: json.dumps(data).replace("<", "\\u003c"), text)
     page.write_text(text.replace("<head>", "<head>" + FRAMES).replace("</body>", VISIT + "</body>"))
     try:
-        done = browse(page, "--dump-dom", "--window-size=1200,900", *options)
+        done = browse(page, "--dump-dom", "--window-size=1280,900", *options)
     finally:
         page.unlink()
     found = re.search(r'<pre id="states">(.*?)</pre>', done.stdout, re.DOTALL)
@@ -231,7 +233,6 @@ class Report(unittest.TestCase):
     def test_the_slider_moves_the_particles(self):
         start, middle = self.states["start"], self.states["middle"]
         self.assertTrue(start["webgl"])
-        self.assertGreater(start["points"], 0)
         self.assertNotEqual(start["snapshot"], middle["snapshot"])
         self.assertNotEqual(start["places"], middle["places"])
 
@@ -258,10 +259,27 @@ class Report(unittest.TestCase):
         self.assertGreater(start["triangles"], 0)  # the skin
         self.assertFalse(self.states["middle"]["playing"])
 
-    def test_cutting_takes_about_half_away(self):
+    def test_cutting_takes_about_half_of_the_skin_away_and_shows_the_layer_behind_it(self):
+        """Particles deeper than the layer are within the skin that is left."""
         xs = self.states["cut"]["places"][::3]
         gone = sum(x > 1e8 for x in xs) / len(xs)
-        self.assertTrue(0.3 < gone < 0.7, gone)
+        self.assertTrue(0.3 < gone < 0.95, gone)
+        whole, cut = self.states["colored"]["corners"], self.states["cut"]["corners"]
+        self.assertTrue(0.25 < cut / whole < 0.75, (cut, whole))
+
+    def test_the_skin_has_the_colors_of_the_particles_beside_it(self):
+        """Means of the colors of the scale: no part is darker or lighter than the particles' extremes."""
+        middle = self.states["middle"]
+        for part in range(3):
+            tints, skin = middle["tints"][part::3], middle["skin"][part::3]
+            self.assertGreaterEqual(min(skin), min(tints) - 0.02)
+            self.assertLessEqual(max(skin), max(tints) + 0.02)
+        self.assertNotEqual(middle["skin"], self.states["named"]["skin"])
+        self.assertGreater(len(set(middle["skin"])), 1)
+
+    def test_play_and_colors_are_above_the_fold_of_a_desk(self):
+        for bottom in self.states["start"]["controls"]:
+            self.assertTrue(0 < bottom < 900, self.states["start"]["controls"])
 
     def test_the_worst_frame_is_a_click_away(self):
         self.assertNotEqual(self.states["worst"]["snapshot"], self.states["cut"]["snapshot"])
@@ -308,7 +326,7 @@ class Report(unittest.TestCase):
         self.assertEqual(widths[-1] > 1.5 * widths[0], len(widths) % 2 == 1 and len(widths) > 1, widths)
 
     def test_the_scale_of_colors_says_which_percentiles_it_ends_at(self):
-        self.assertRegex(self.states["start"]["scale"], r"\(0\.1st to 99\.9th percentile\)")
+        self.assertRegex(self.states["start"]["scale"], r"\(0\.5th to 99\.5th percentile\)")
 
     def test_every_metric_is_in_a_table_that_is_open_and_can_be_folded(self):
         text = (RUN / "report.html").read_text()

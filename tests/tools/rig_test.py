@@ -243,6 +243,9 @@ class Info(unittest.TestCase):
         told = info(SOURCE / "data/motions/fox.glb")
         self.assertEqual([clip["name"] for clip in told["clips"]], ["walk", "wag"])
         self.assertEqual([clip["frames"] for clip in told["clips"]], [121, 121])
+        self.assertEqual([line for line in found if "moves" in line],
+                         [f"  moves: {len(clip['moves'])} of 21 bones in 2 s" for clip in told["clips"]])
+        self.assertLess(len(told["clips"][1]["moves"]), len(told["clips"][0]["moves"]))
         self.assertEqual(told["skeleton"][1], {"name": "chest", "parent": 0, "length": told["skeleton"][1]["length"]})
 
     def test_bones_may_be_named_as_anything(self):

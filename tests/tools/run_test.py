@@ -5,9 +5,11 @@
 usage: run_test.py BIN SOURCE      folder of the programs, folder of the project
 """
 import csv
+import html
 import json
 import os
 import pty
+import re
 import struct
 import sys
 import unittest
@@ -63,6 +65,34 @@ class Commands(SmallRun):
         self.assertEqual(record["status"], "finished")
         self.assertEqual(record["frames"], 13)
         self.assertEqual(list(self.folder.rglob("*.tmp")), [])
+
+    def test_one_strain_has_one_range_in_pictures_page_and_paraview(self):
+        self.check_range()
+
+    def test_one_strain_has_one_range_where_every_second_frame_is_written(self):
+        self.check_range("--set", "output.every=2")
+
+    def check_range(self, *words):
+        """The 0.5th and 99.5th percentile of all frames, as NumPy finds them."""
+        sinew("run", self.scene, "-o", self.out, "--no-movie", *words, check=0)
+        all_strains = numpy.concatenate([meshio.read(frame).point_data["strain_eq"]
+                                         for frame in sorted((self.out / "particles").glob("*.vtu"))])
+        low, high = self.record()["ranges"]["strain_eq"]
+        wanted = numpy.percentile(all_strains, [0.5, 99.5])
+        self.assertAlmostEqual(high / wanted[1], 1, delta=5e-3)
+        self.assertEqual(low, 0 if wanted[0] < high / 2 else low)
+        for views in ("cut,halves,section", "strain"):
+            told = json.loads(sinew("render", self.out, "--view", views, "--times", "0.2", "--no-movie", "--json", check=0).stdout)
+            self.assertEqual(told["ranges"]["strain_eq"], [low, high])
+        playback = json.loads(re.search(r'id="playback">(.*?)</script>', (self.out / "report.html").read_text(), re.S)[1])
+        strain = next(field for field in playback["fields"] if field["name"] == "strain")
+        self.assertEqual((strain["low"], strain["high"]), (low, high))
+        points = re.search(r'name="RGBPoints".*?</Property>', (self.out / "view.pvsm").read_text(), re.S)[0]
+        values = [float(value) for value in re.findall(r'value="([^"]*)"', points)][::4]
+        self.assertAlmostEqual(values[0], low, delta=1e-6)
+        self.assertAlmostEqual(values[-1] / high, 1, delta=1e-6)
+        sinew("measure", self.out, check=0)
+        self.assertEqual(self.record()["ranges"]["strain_eq"], [low, high])
 
     def test_a_run_that_begins_in_a_pose_says_what_relaxing_took(self):
         pose = "- time: 0\n          axis: [0, 1, 0]\n          angle: 40\n"
@@ -473,8 +503,31 @@ class Commands(SmallRun):
         box = self.folder / "box.yaml"
         box.write_text((SOURCE / "configs/box_bend.yaml").read_text().replace("../data", str(SOURCE / "data")))
         shown = sinew("run", box, "-o", self.out, "--set", "solver.duration=0.1", check=0).stdout.splitlines()
+        self.assertRegex(shown[-1], r"^time: .*; [0-9.e-]+ s per frame\)$")
         self.assertLessEqual(len(shown), 12)
         self.assertEqual([line.partition(":")[0] for line in shown], keys)
+
+    def test_a_run_ends_with_what_check_warns_of(self):
+        words = ["--set", "material.b=2.83"]
+        told = sinew("check", self.scene, *words, check=0).stderr.splitlines()
+        self.assertEqual(len(told), 3)
+        self.assertEqual(" ".join(told).count("67 % softer"), 1)  # by direction and size: one modulus in one sentence
+        self.assertNotIn("bends 52", sinew("check", self.scene, *words, check=0).stdout)
+        warnings = [line.removeprefix("sinew: warning: ") for line in told]
+        self.assertEqual(warnings, sorted(warnings, key=len))
+        for command in "run", "simulate":
+            done = sinew(command, self.scene, "-o", self.out, "--force", *words, check=0)
+            self.assertEqual(done.stderr.splitlines()[-3:], told)
+            self.assertLessEqual(len(done.stdout.splitlines()), 12)
+            self.assertEqual(self.record()["warnings"], warnings)
+            log = (self.out / "log.txt").read_text()
+            page = html.unescape((self.out / "report.html").read_text()) if command == "run" else log
+            for text in warnings:
+                self.assertEqual([part.count(text) for part in (done.stderr, log, page)], [1, 1, 1])
+                self.assertIn(text, page.partition("<h2>")[0])
+        done = sinew("run", self.scene, "-o", self.out, "--force", "--set", "solver.time_step=0.02", check=3)
+        self.assertEqual(done.stderr.count("will become unstable"), 1)
+        self.assertTrue(done.stderr.splitlines()[-1].startswith("sinew: warning: "))
 
     def test_a_run_tells_what_the_fill_is_doubtful_of(self):
         text = (SOURCE / "data/meshes/box.obj").read_text()

@@ -45,9 +45,22 @@ CACHE = BIN.parent / "CMakeCache.txt"  # not there where sinew is installed
 HAS_GROUPS = not CACHE.is_file() or "SINEW_GROUPS:BOOL=OFF" not in CACHE.read_text()
 
 
-def sinew(*words, check=None, timeout=300, **options):
+def check_schemas(words, since, cwd):
+    """What a command has written below the folders that it was told of is as the installed schemas say."""
+    import schemas  # here: what runs in ParaView's Python may lack jsonschema
+
+    for folder in {Path(cwd or ".", str(word)) for word in words} | {Path(cwd or "/none", "out")}:
+        if folder.is_dir():
+            schemas.check_written(folder, since)
+
+
+def sinew(*words, check=None, timeout=300, sound=True, **options):
+    """sound: whether the records that it leaves are as their schemas say."""
+    begun = time.time()
     done = subprocess.run([BIN / "sinew", *map(str, words)], capture_output=True, text=True,
                           timeout=timeout, **options)
+    if done.returncode == 0 and sound:
+        check_schemas(words, begun, options.get("cwd"))
     if check is not None and done.returncode != check:
         raise AssertionError(f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
     return done

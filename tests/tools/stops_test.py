@@ -261,7 +261,7 @@ class Stops(SmallRun):
         self.assertFalse((self.folder / "drawn").exists() or (self.folder / "measured").exists())
 
     def test_a_signal_between_two_runs_ends_a_study(self):
-        done = self.with_stages("converge", "--radii", "0.03,0.025")
+        done = self.with_stages("converge", "--radii", "0.03,0.025", "--threads", "1")
         self.assertEqual(done.returncode, 130, done.stderr)
         self.assertIn("--resume", done.stderr)
         self.assertEqual((self.folder / "simulated").read_text(), "\n")

@@ -88,6 +88,17 @@ class Studies(unittest.TestCase):
         self.assertAlmostEqual(moved["limit"], PULLED, delta=1e-9)
         self.assertLess(moved["error"], 1e-9)
 
+    def test_what_does_not_converge_is_told_so(self):
+        ends = {"inverted": (0, math.inf), "broken_bonds": (0, 1), "stretch_max": (0, math.inf)}
+        for one in self.study["results"]:
+            low, high = ends.get(one["name"], (-math.inf, math.inf))
+            self.assertTrue(one["limit"] is None or low <= one["limit"] <= high, one)
+            self.assertEqual(len(one["values"]), len(RADII))
+        lost = [one for one in self.study["results"] if one["limit"] is None and None not in one["values"]]
+        self.assertIn("does not converge", (self.out / "report.html").read_text())
+        self.assertFalse([one for one in lost if one["error"] is not None or one["order"] is not None])
+        self.assertLessEqual({"center_x", "von_mises_left_out"}, {one["name"] for one in lost})  # rounding, and a count
+
     def test_the_runs_are_named_by_their_radii(self):
         self.assertTrue(self.study["by_radius"])
         self.assertEqual([run["radius"] for run in self.study["runs"]], RADII)
@@ -131,6 +142,15 @@ class Studies(unittest.TestCase):
                      "--set", "material.young_modulus=2e5")
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("young_modulus", done.stderr)
+
+    def test_a_run_that_fails_ends_the_study_with_its_reason(self):
+        out = self.at / "fails"
+        done = sinew("converge", self.scene, "--radii", self.radii, "-o", out, "--set", "solver.time_step=0.02")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        said = [line for line in done.stderr.splitlines() if line.startswith("sinew: ")]
+        self.assertEqual(len(said), 1, done.stderr)
+        self.assertIn("use solver.time_step", said[0])
+        self.assertFalse((out / "study.json").exists())
 
     def test_runs_that_differ_otherwise_have_no_limits(self):
         stiff = self.at / "stiff"

@@ -95,7 +95,7 @@ TEST(Loads, APressureOnAClosedBodySumsToZeroWithItsMoments) {
   const Load load = pressure_load("press", around(rest), 2000, rest, r);
   LoadNow at(load);
   at.find(
-      0.5, [&](std::size_t k) { return now[load.particles[k]]; }, false);
+      {0.5}, [&](std::size_t k) { return now[load.particles[k]]; }, false);
   Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
   double most = 0;
   for (std::size_t k = 0; k < load.particles.size(); ++k) {
@@ -114,7 +114,7 @@ TEST(Loads, TheWorkOfAPressureIsTheVolumeLost) {
   const Load load = pressure_load("press", skin, 2000, rest, r);
   LoadNow at(load);
   at.find(
-      1, [&](std::size_t k) { return now[load.particles[k]]; }, false);
+      {}, [&](std::size_t k) { return now[load.particles[k]]; }, false);
   const FollowingPoints points = following(skin.points, rest, r, followed_by_corners);
   std::mt19937 random(5);
   double power = 0;
@@ -154,7 +154,7 @@ TEST(Loads, TurnWithTheSurfaceOnlyIfTheyArePressures) {
   for (const Load* load : {&pressure, &traction}) {
     LoadNow at(*load);
     at.find(
-        1, [&](std::size_t k) { return now[load->particles[k]]; }, false);
+        {}, [&](std::size_t k) { return now[load->particles[k]]; }, false);
     const Vec3 expected = load == &pressure ? Vec3(-1000 * area, 0, 0) : Vec3(0, 0, -1000 * area);
     EXPECT_LT((force_of(*load, at) - expected).norm(), 1e-9 * 1000 * area);
     EXPECT_LT((load->pivot - Vec3(0, 0, z)).norm(), 1e-9 * r);
@@ -169,7 +169,7 @@ TEST(Loads, AreTheSameBitsOnAnyNumberOfThreads) {
       const Load load = pressure_load("press", around(rest), 2000, rest, r);
       LoadNow at(load);
       at.find(
-          0.7, [&](std::size_t k) { return now[load.particles[k]]; }, false);
+          {0.7}, [&](std::size_t k) { return now[load.particles[k]]; }, false);
       for (std::size_t k = 0; k < load.particles.size(); ++k) found.push_back(at.force(k));
     });
     return found;
@@ -196,8 +196,8 @@ Followed followed(const Points& rest, const std::function<Vec3(const Vec3&, int)
   for (int step = 0; step < steps; ++step) {
     const auto position = [&](std::size_t k) { return motion(rest[load.particles[k]], step); };
     LoadNow exact(load);
-    exact.find(1, position, false);
-    if (kept.find(1, position, true)) ++result.found;
+    exact.find({}, position, false);
+    if (kept.find({}, position, true)) ++result.found;
     double off = 0;
     size = 0;
     for (std::size_t k = 0; k < sum.size(); ++k) {
@@ -282,7 +282,7 @@ TEST(Loads, OfPressuresAreThoseOfTheMomentInEquilibrium) {
   const Load& load = machine.world.loads[0];
   LoadNow exact(load);
   exact.find(
-      1, [&](std::size_t k) { return now[load.particles[k]]; }, false);
+      {}, [&](std::size_t k) { return now[load.particles[k]]; }, false);
   Vec3 moment = Vec3::Zero();
   for (std::size_t k = 0; k < load.particles.size(); ++k)
     moment += (now[load.particles[k]] - load.pivot).cross(exact.force(k));
@@ -299,6 +299,10 @@ TEST(Loads, DoTheWorkThatTheBodyStoresAndLoses) {
     machine.world.supports = {{"clamp", machine.bottom()}};
     machine.world.loads = {machine.pull(machine.top(), {0, 0.05, 0.2}),
                            pressure_load("press", around(machine.rest), 300, machine.rest, r)};
+    Load spring = spring_load("spring", machine.rest[machine.top().front()], 2, machine.rest, r);
+    spring.scale = {{0, 0.05}, {0, 1}};
+    spring.free_end = {{0, 0.2}, {{0.3, 0, 0}, {0.5, 0.1, 0.3}}};
+    machine.world.loads.push_back(spring);
     machine.world.loads[0].scale = {{0, 0.1}, {0, 1}};
     machine.world.loads[1].scale = {{0, 0.2}, {0, 1}};
     Simulation simulation = machine.begin();
@@ -308,6 +312,29 @@ TEST(Loads, DoTheWorkThatTheBodyStoresAndLoses) {
     EXPECT_GT(end.work_of_world, 1e-5);
     EXPECT_NEAR(end.stored() - start.stored(), end.work() - (end.dissipation - start.dissipation),
                 0.005 * end.work_of_world);
+  }
+}
+
+/// The force of a spring is its stiffness times the way from its point, which follows the body, to
+/// its free end, wherever that is; it has no part in the other loads.
+TEST(Loads, OfSpringsPullTheirPointToTheirFreeEnd) {
+  for (const bool one : {false, true}) {
+    Machine machine;
+    machine.world.supports = {{"clamp", machine.bottom()}};
+    const std::uint32_t particle = machine.top().front();
+    Load spring = one ? spring_load("spring", particle, 3, machine.rest)
+                      : spring_load("spring", machine.rest[particle], 3, machine.rest, r);
+    spring.free_end = {{0, 1}, {machine.rest[particle] + Vec3(3 * r, 0, r), {0, 0, 0}}};
+    machine.world.loads = {spring};
+    Simulation simulation = machine.at_rest();
+    const Points now = positions_by_id(simulation.particles());
+    Vec3 point = Vec3::Zero();
+    for (std::size_t k = 0; k < spring.particles.size(); ++k)
+      point += spring.weight[k] * now[spring.particles[k]];
+    const Vec3 force = 3 * (spring.free_end.places[0] - point);
+    EXPECT_GT((point - machine.rest[particle]).norm(), 0.01 * r);
+    EXPECT_LT((simulation.load_reactions()[0].force - force).norm(), 1e-6 * force.norm());
+    EXPECT_LT((simulation.support_reactions()[0].force + force).norm(), 1e-4 * force.norm());
   }
 }
 

@@ -2,7 +2,7 @@
 # Completion of sinew for bash: commands, options, keys after --set, views, files.
 _sinew() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
-  local commands="new run check fill simulate converge measure render view export info"
+  local commands="new run check fill simulate play converge sweep measure render view export info presets"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
     mapfile -t COMPREPLY < <(compgen -W "$commands --help --version" -- "$word")

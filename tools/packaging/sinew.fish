@@ -11,7 +11,7 @@ end
 function __sinew_keys
     sinew (__sinew_command) --completions 2>/dev/null | string match '*='
 end
-set -l commands new run check fill simulate converge measure render view export info
+set -l commands new run check fill simulate play converge sweep measure render view export info presets
 complete -c sinew -f -n "not __fish_seen_subcommand_from $commands" -a "$commands"
 complete -c sinew -n "__fish_seen_subcommand_from $commands; and string match -q -- '-*' (commandline -ct)" -f -a '(__sinew_options)'
 complete -c sinew -l set -x -a '(__sinew_keys)'

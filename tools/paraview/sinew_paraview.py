@@ -129,7 +129,7 @@ class SinewSeries(VTKPythonAlgorithmBase):
     def __init__(self):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid")
         self._file, self._name, self._vectors, self._length, self._largest = None, "", "", 0.0, 0.0
-        self._colors, self._range = "", (0.0, 0.0)
+        self._colors, self._range, self._fixed = "", (0.0, 0.0), False
         self._seen = self._shown = None
 
     @smproperty.stringvector(name="FileName")
@@ -162,6 +162,11 @@ class SinewSeries(VTKPythonAlgorithmBase):
     @smproperty.doublevector(name="ColorRange", default_values=[0.0, 0.0])
     def SetColorRange(self, low, high):
         self._range = low, high
+        self.Modified()
+
+    @smproperty.intvector(name="FixedRange", default_values=0)
+    def SetFixedRange(self, fixed):
+        self._fixed = bool(fixed)
         self.Modified()
 
     def GetNeedsUpdate(self):
@@ -198,17 +203,19 @@ class SinewSeries(VTKPythonAlgorithmBase):
             self._largest = max(self._largest, numpy.linalg.norm(values, axis=1).max(initial=0))
             arrays.AddArray(vtk_array("arrow", values * (self._length / self._largest if self._largest else 0)))
 
-
     def _grow_colors(self, arrays):
-        """To all but the hundredth of the values farthest out at each end."""
+        """To all but half a percent of the values at each end, unless a range was asked for."""
+        if self._fixed:
+            rescale_colors(self._colors, *self._range)
+            return
         array = arrays.GetArray(self._colors)
         if array and array.GetNumberOfValues():
             values = vtk_to_numpy(array).astype(float)
             values = numpy.linalg.norm(values, axis=1) if values.ndim > 1 else values
-            low, high = numpy.nanpercentile(values, [1, 99])
+            low, high = numpy.nanpercentile(values, [0.5, 99.5])
             known = self._range if self._range[0] < self._range[1] else (low, high)
             low, high = min(low, known[0]), max(high, known[1])
-            self._range = 0 if 0 <= low < 0.25 * high else low, high
+            self._range = 0 if 0 <= low < 0.5 * high else low, high
             if self._range[0] < high:
                 rescale_colors(self._colors, *self._range)
 

@@ -98,6 +98,8 @@ const std::vector<FeatureRow> table = {
         "hold axes of the scene"),
     row(pressures, "pressures", {"loads"}, {{newton, "they follow the surface"}, lammps},
         "give forces instead"),
+    row(springs, "springs", {"world.springs"},
+        {{newton, "they follow the body"}, lammps, {elements, loads_alone}}),
     row(branches, "branches of bonds, which relax in time", {}, {newton}),
     row(oblique_pins, "oblique rollers", {}, {newton}),
     row(rigid_damping, "damping relative to holds", {}, {lammps},

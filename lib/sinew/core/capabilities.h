@@ -25,7 +25,7 @@ enum class Feature {
   integrator, time_step, residual, static_solver, velocities, preroll, first_pose, bodies, layer, other_packing, hcp,
   modulus_direction, bonds, bonds_alone, k1, nearest_bonds, isotropy, part_stiffness, part_ratio, part_volume, part_density, breaking, yielding, relaxing,
   rayleigh, attraction, one_cohesion, friction, bones, pass_through, open_loop, max_force,
-  drag, obstacles, rough_obstacles, mesh_obstacles, pins, fields, muscles, supports_along, pressures,
+  drag, obstacles, rough_obstacles, mesh_obstacles, pins, fields, muscles, supports_along, pressures, springs,
   branches, oblique_pins, rigid_damping, own_forces, mesh_fields,
   own_law, own_law_of_memory, law_without_precision
 };

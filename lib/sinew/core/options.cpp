@@ -105,33 +105,60 @@ double meters(LengthUnit unit) {
 
 namespace {
 
+/// Young's modulus of a rubber by its Shore hardness A, 20 to 80, Pa: A. N. Gent, "On the relation
+/// between indentation hardness and Young's modulus", Rubber Chem. Technol. 31 (1958) 896.
+constexpr double modulus_of_shore_a(double hardness) {
+  return 0.0981e6 * (56 + 7.62336 * hardness) / (0.137505 * (254 - 2.54 * hardness));
+}
+
 // Densities of tissues: IT'IS Foundation, Tissue Properties Database 4.1.
-constexpr std::array<MaterialPreset, 6> presets = {{
-    {MaterialPresetName::fat, 911, 3250, 0.45, 0.2, std::nullopt, "adipose tissue of the breast",
+constexpr std::array<MaterialPreset, 13> presets = {{
+    {"fat", 911, 3250, 0.45, 0.2, std::nullopt, "adipose tissue of the breast",
      "Samani, Zubovits and Plewes, Phys. Med. Biol. 52 (2007) 1565"},
-    {MaterialPresetName::muscle, 1090, 7000, 0.45, 0.2, std::nullopt, "relaxed skeletal muscle",
+    {"muscle", 1090, 7000, 0.45, 0.2, std::nullopt, "relaxed skeletal muscle",
      "Levinson, Shinagawa and Sato, J. Biomech. 28 (1995) 1145"},
-    {MaterialPresetName::skin, 1109, 420e3, 0.45, 0.2, std::nullopt, "human skin below 30 years",
+    {"skin", 1109, 420e3, 0.45, 0.2, std::nullopt, "human skin below 30 years",
      "Agache et al., Arch. Dermatol. Res. 269 (1980) 221"},
-    {MaterialPresetName::silicone, 1070, 69e3, 0.45, 0.1, std::nullopt,
+    {"cartilage", 1100, 5e6, 0.45, 0.2, std::nullopt,
+     "cartilage of the knee, loaded for less than its fluid needs to flow",
+     "Blankevoort et al., J. Biomech. 24 (1991) 1019"},
+    {"bone", 1908, 17e9, 0.3, 0.1, std::nullopt,
+     "compact bone of a femur, along its shaft (across it: 11.5 GPa)",
+     "Reilly and Burstein, J. Biomech. 8 (1975) 393"},
+    {"gelatin", 1020, 15e3, 0.45, 0.1, std::nullopt,
+     "ten parts of water to one of powder: a power law from 277 kPa (2 : 1) to 4.34 kPa (20 : 1)",
+     "Bonavia et al., arXiv 2512.20502 (2025)"},
+    {"natural_rubber", 950, 1.2e6, 0.49, 0.1, std::nullopt,
+     "vulcanized, without fillers: three times its shear modulus of 0.39 MPa",
+     "Treloar, Trans. Faraday Soc. 40 (1944) 59"},
+    {"silicone", 1070, 69e3, 0.45, 0.1, std::nullopt,
      "silicone rubber of Shore hardness 00-30, its modulus at 100 %",
      "Smooth-On, Technical Bulletin Ecoflex Series"},
-    {MaterialPresetName::rubber_foam, 48, 72e3, 0.3, 0.1, std::nullopt,
+    {"silicone_20a", 1080, modulus_of_shore_a(20), 0.49, 0.1, std::nullopt,
+     "silicone rubber of Shore hardness 20A",
+     "Gent, Rubber Chem. Technol. 31 (1958) 896; density: Smooth-On, Dragon Skin 20"},
+    {"silicone_40a", 1180, modulus_of_shore_a(40), 0.49, 0.1, std::nullopt,
+     "silicone rubber of Shore hardness 40A",
+     "Gent, Rubber Chem. Technol. 31 (1958) 896; density: Smooth-On, Smooth-Sil 940"},
+    {"silicone_60a", 1250, modulus_of_shore_a(60), 0.49, 0.1, std::nullopt,
+     "silicone rubber of Shore hardness 60A",
+     "Gent, Rubber Chem. Technol. 31 (1958) 896; density: Smooth-On, Smooth-Sil 960"},
+    {"rubber_foam", 48, 72e3, 0.3, 0.1, std::nullopt,
      "open foam of polyurethane, 4 % dense: E = 45 MPa times 0.04^2",
      "Gibson and Ashby, Cellular Solids, 2nd ed. (1997)"},
-    {MaterialPresetName::clay, 1750, 2e6, 0.45, 0.3, 0.007,
+    {"clay", 1750, 2e6, 0.45, 0.3, 0.007,
      "very soft clay, undrained; yields at twice its shear strength of E / 300",
      "Bowles, Foundation Analysis and Design, 5th ed. (1996)"},
 }};
+static_assert(presets.size() == static_cast<std::size_t>(MaterialPresetName::clay));
 
 }  // namespace
 
 std::span<const MaterialPreset> material_presets() { return presets; }
 
 const MaterialPreset* preset_named(MaterialPresetName name) {
-  for (const MaterialPreset& preset : presets)
-    if (preset.name == name) return &preset;
-  return nullptr;
+  const auto place = static_cast<std::size_t>(name);
+  return place == 0 ? nullptr : &presets[place - 1];
 }
 
 }  // namespace sinew

@@ -86,7 +86,23 @@ constexpr bool keeps_volume(MaterialModel model) {
   return material_models[static_cast<std::size_t>(model)].keeps_volume;
 }
 
-enum class MaterialPresetName { none, fat, muscle, skin, silicone, rubber_foam, clay };
+/// In the order of material_presets(), which has their words.
+enum class MaterialPresetName {
+  none,
+  fat,
+  muscle,
+  skin,
+  cartilage,
+  bone,
+  gelatin,
+  natural_rubber,
+  silicone,
+  silicone_20a,
+  silicone_40a,
+  silicone_60a,
+  rubber_foam,
+  clay
+};
 enum class Cohesion { all, initial_neighbors };
 enum class DampingForm { paper, symmetric, central, rigid };
 /// Whether eq. 2 acts along the pairs alone.
@@ -130,17 +146,17 @@ constexpr bool is_isotropic(const MaterialOptions& material, Packing packing) {
 // Materials by name: the values of material.preset, each with its source.
 
 struct MaterialPreset {
-  MaterialPresetName name;
-  double density;        ///< kg/m^3
-  double young_modulus;  ///< Pa
-  double poisson_ratio;  ///< in the range of bonded_volume
+  std::string_view name;  ///< the word by which a scene chooses it
+  double density;         ///< kg/m^3
+  double young_modulus;   ///< Pa
+  double poisson_ratio;   ///< in the range of bonded_volume
   /// Ratio of the lowest elastic mode: our choice, such bodies swing once or twice.
   double damping_ratio;
   std::optional<double> yield_strain;  ///< strain at which materials that flow yield
   std::string_view what, source;
 };
 
-/// In the order of the names, without "none".
+/// All but none.
 std::span<const MaterialPreset> material_presets();
 
 /// nullptr for none.
@@ -209,9 +225,12 @@ enum class Positions { replace, add };
 /// Where a body is when its motion begins; automatic: in the first pose where that is far.
 enum class Begin { rest, pose, automatic };
 
+using NamePair = std::array<std::string, 2>;
+
 struct MotionOptions {
   std::string file;  ///< a path, as body.mesh; none once a file of YAML has been read
   std::string clip;
+  std::vector<NamePair> names = {};  ///< [bone of the skeleton, joint of the clip]
   double start = 0;
   std::optional<double> end;
   std::optional<double> frame_rate;
@@ -259,8 +278,6 @@ struct BindingOptions {
   double soften_below = 0;  ///< particles of a bone
   std::optional<double> max_force = {};
 };
-
-using NamePair = std::array<std::string, 2>;
 
 /// Bones whose flesh passes through each other: named, or found along the motion.
 struct PassThroughOptions {

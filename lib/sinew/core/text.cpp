@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -146,6 +147,26 @@ std::string number_text(double value) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
+}
+
+PrefixedUnit prefixed_unit(double value, const std::string& unit) {
+  static constexpr std::array<std::string_view, 7> with_prefixes = {"Pa", "N", "J",  "W",
+                                                                    "m",  "s", "m/s"};
+  static constexpr std::array<std::string_view, 4> larger = {"k", "M", "G", "T"},
+                                                   smaller = {"m", "µ", "n", "p"};
+  const double size = std::abs(value) * (1 + 0.0005);  // 999.7 is 1.00 of the next
+  if (!(size > 0) || !std::isfinite(size) || (size >= 0.01 && size < 1000) ||
+      std::find(with_prefixes.begin(), with_prefixes.end(), unit) == with_prefixes.end())
+    return {unit};
+  const int power = std::clamp(static_cast<int>(std::floor(std::log10(size) / 3)), -4, 4);
+  if (power == 0) return {unit};
+  const auto place = static_cast<std::size_t>(std::abs(power) - 1);
+  return {std::string(power > 0 ? larger[place] : smaller[place]) + unit, std::pow(1000, power)};
+}
+
+std::string quantity_text(double value, const std::string& unit) {
+  const PrefixedUnit shown = prefixed_unit(value, unit);
+  return three_digits(value / shown.size) + ' ' + shown.unit;
 }
 
 std::string bytes_text(double bytes) {

@@ -43,6 +43,17 @@ std::string number_text(double value);
 /// Three significant digits, for people: "0.00175".
 std::string three_digits(double value);
 
+/// A unit with a prefix of the SI, and what a number is divided by to be given in it.
+struct PrefixedUnit {
+  std::string unit;
+  double size = 1;
+};
+/// The unit in which a number of that size is written in few digits: kPa for 2370 Pa. Units that
+/// take no prefix, and numbers from 0.01 to 1000, keep theirs.
+PrefixedUnit prefixed_unit(double value, const std::string& unit);
+/// Three significant digits with it: "2.37 kPa".
+std::string quantity_text(double value, const std::string& unit);
+
 /// "12.3 MB", of bytes.
 std::string bytes_text(double bytes);
 

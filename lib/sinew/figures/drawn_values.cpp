@@ -127,7 +127,9 @@ DrawnValues::DrawnValues(const RunFiles& run, const std::string& name) : run_(&r
   const WrittenArray* array = find_written("surface", ArrayPlace::point, name);
   if (!array || name == "Points") throw unknown(run, name);
   if (array->unit != "1") unit_ = array->unit;
-  if (!is_measured(name) || has_array(run, run.particle_rows.front(), name)) return;
+  of_particles_ = name == "displacement" || has_array(run, run.particle_rows.front(), name);
+  if (of_particles_ || !is_measured(name)) return;
+  of_particles_ = true;
   rest_ = std::make_shared<RestBody>(rest_body(measured_body(run)));
   if (array->unit == "Pa") check_forces(*rest_, name);
 }
@@ -145,16 +147,6 @@ Column DrawnValues::column(std::size_t index, const FrameState& frame) const {
 
 std::vector<double> DrawnValues::at(std::size_t index, const FrameState& frame) const {
   return sizes_of(column(index, frame));
-}
-
-DrawnValues::Range DrawnValues::range_of(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return value != value; });
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::size_t outliers = values.size() / 100;
-  const double low = values[outliers], high = values[values.size() - 1 - outliers];
-  const bool from_zero = values.front() >= 0 && low < high / 2;
-  return {from_zero ? 0 : low, high, values.back() > high || (!from_zero && values.front() < low)};
 }
 
 DrawnSkin::DrawnSkin(const RunFiles& run, const DrawnValues& values) : run_(&run), values_(values) {

@@ -28,6 +28,10 @@ class DrawnValues {
 
   const std::string& name() const { return name_; }
   const std::string& unit() const { return unit_; }  ///< empty for pure numbers
+  /// Its name in files: "strain" in pictures is strain_eq there.
+  std::string quantity() const { return name_ == "strain" ? "strain_eq" : name_; }
+  /// Whether particles have it; else the surface alone.
+  bool is_of_particles() const { return of_particles_; }
 
   /// Values of the particles in the written order; vectors as such. `frame` is the run's frame
   /// `index`. Throws bad input for an array that the frame has not, naming those that it has.
@@ -35,17 +39,10 @@ class DrawnValues {
   /// One per particle: the magnitudes of vectors and tensors.
   std::vector<double> at(std::size_t index, const FrameState& frame) const;
 
-  /// The values at the ends of the color scale: the 1st and 99th percentile, so that a few escaped
-  /// particles do not determine it; from zero where that is near.
-  struct Range {
-    double low = 0, high = 0;
-    bool leaves_out = false;  ///< whether values lie outside
-  };
-  static Range range_of(std::vector<double> values);
-
  private:
   const RunFiles* run_;
   std::string name_, unit_;
+  bool of_particles_ = true;
   std::shared_ptr<const RestBody> rest_;  ///< for what is measured
 };
 

@@ -24,17 +24,38 @@ std::vector<SymmetricTensor> tensors_in(const Column& column) {
   return tensors;
 }
 
-/// The cells that are not torn.
-std::vector<Cell> whole_cells(const Dataset& data) {
+/// The cells that are torn, or those that are not.
+std::vector<Cell> cells_of(const Dataset& data, bool are_torn) {
   const std::vector<std::int32_t>& torn = integers(data.cell_columns, "torn");
   std::vector<Cell> cells;
   for (std::size_t c = 0; c < torn.size(); ++c) {
-    if (torn[c]) continue;
+    if ((torn[c] != 0) != are_torn) continue;
     Cell& cell = cells.emplace_back();
     for (std::size_t k = 0; k < 4; ++k)
       cell[k] = static_cast<std::uint32_t>(data.connectivity[4 * c + k]);
   }
   return cells;
+}
+
+std::vector<Cell> whole_cells(const Dataset& data) { return cells_of(data, false); }
+
+/// Whether each point is a corner of a torn cell, or close to one: what is seen through the hole.
+std::vector<bool> near_torn(const Dataset& data, const std::vector<Cell>& torn) {
+  constexpr int rings = 2;  // neighbors of neighbors
+  std::vector<bool> is_near(data.points.size());
+  for (const Cell& cell : torn)
+    for (const std::uint32_t corner : cell) is_near[corner] = true;
+  for (int ring = 0; ring < rings && !torn.empty(); ++ring) {
+    const std::vector<bool> before = is_near;
+    for (std::size_t at = 0; at + 3 < data.connectivity.size(); at += 4) {
+      const auto corner = [&](std::size_t k) {
+        return static_cast<std::size_t>(data.connectivity[at + k]);
+      };
+      if (before[corner(0)] || before[corner(1)] || before[corner(2)] || before[corner(3)])
+        for (std::size_t k = 0; k < 4; ++k) is_near[corner(k)] = true;
+    }
+  }
+  return is_near;
 }
 
 }  // namespace
@@ -48,8 +69,8 @@ Dataset DrawnVolume::cells(std::size_t index, const FrameState& frame, Column co
   return volume_.at(index, particles);
 }
 
-SnapshotCut DrawnVolume::cut(std::size_t index, const FrameState& frame, std::vector<double> values,
-                             const CutPlane& asked) const {
+DrawnVolume::Opened DrawnVolume::cut(std::size_t index, const FrameState& frame,
+                                     std::vector<double> values, const CutPlane& asked) const {
   // Many particles may lie exactly on it, as layers do at rest.
   const double aside = 1e-3 * run_->body.particles.radius;
   const CutPlane plane{asked.point + aside * asked.normal, asked.normal};
@@ -62,8 +83,10 @@ SnapshotCut DrawnVolume::cut(std::size_t index, const FrameState& frame, std::ve
     if (std::any_of(cell.begin(), cell.end(), [&](auto point) { return in_front[point]; }) &&
         !std::all_of(cell.begin(), cell.end(), [&](auto point) { return in_front[point]; }))
       cut.cells.push_back(cell);
+  std::vector<bool> in_hole = near_torn(data, cells_of(data, true));
+  in_hole.resize(frame.positions.size());
   cut.points = std::move(data.points);
-  return cut;
+  return {std::move(cut), std::move(in_hole)};
 }
 
 std::vector<SnapshotCurve> DrawnVolume::lines(std::size_t index, const FrameState& frame,

@@ -20,10 +20,15 @@ class DrawnVolume {
   /// Throws as RunVolume does.
   explicit DrawnVolume(const RunFiles& run) : run_(&run), volume_(run) {}
 
+  /// A body cut open, and the particles in the holes that torn cells leave.
+  struct Opened {
+    SnapshotCut cut;
+    std::vector<bool> in_hole;  ///< one per particle
+  };
   /// The cells that the plane crosses in the run's frame `index`, without torn ones. `values`: one
   /// per particle.
-  SnapshotCut cut(std::size_t index, const FrameState& frame, std::vector<double> values,
-                  const CutPlane& plane) const;
+  Opened cut(std::size_t index, const FrameState& frame, std::vector<double> values,
+             const CutPlane& plane) const;
 
   /// Lines along the largest principal value of a symmetric tensor of the particles, where it
   /// exceeds `min_value`.

@@ -96,10 +96,10 @@ FigureSet::FigureSet(std::vector<const DrawnRun*> runs, std::size_t preset,
 /// Says how strong a pull the longest arrow of a run is.
 std::string FigureSet::arrow_scale(std::size_t run) const {
   if (drawn(run).preset.view == View::arrows)
-    return ", longest arrow " + three_digits(drawn(run).range.high) + ' ' + drawn(run).unit();
+    return ", longest arrow " + quantity_text(drawn(run).range.high, drawn(run).unit());
   if (!drawn(run).pulls) return "";
   if (!drawn(run).is_pulled()) return ", no force";
-  return ", longest arrow " + three_digits(drawn(run).range.high) + " N";
+  return ", longest arrow " + quantity_text(drawn(run).range.high, "N");
 }
 
 ColorScale FigureSet::scale() const {
@@ -121,9 +121,9 @@ ColorScale FigureSet::scale() const {
     scale.low = 0, scale.high = std::max(1.0, static_cast<double>(scale.names.size()) - 1);
   }
   if (drawn(0).preset.view == View::arrows) scale.note = arrow_scale(0);
-  if (drawn(0).range.leaves_out && scale.note.empty() && !options_.range && scale.names.empty())
-    scale.note = ", 1st to 99th percentile";
-  if (options_.range) scale.low = (*options_.range)[0], scale.high = (*options_.range)[1];
+  if (scale.note.empty() && !options_.range && scale.names.empty() && scale.high > scale.low)
+    scale.note = ", 0.5th to 99.5th percentile";
+  if (options_.range) scale.low = options_.range->low, scale.high = options_.range->high;
   if (!(scale.high > scale.low)) scale.high = scale.low + 1;  // nothing moves
   return scale;
 }
@@ -147,6 +147,16 @@ std::vector<Snapshot> FigureSet::snapshots(std::size_t frame) const {
 
 std::string FigureSet::title(std::size_t run) const {
   return runs_.size() > 1 ? runs_[run]->name() + arrow_scale(run) : "";
+}
+
+/// What a moment shows. How each of two runs has come back stands beside its own name.
+std::string FigureSet::words_of(const KeyMoment& moment) const {
+  return runs_.size() > 1 && moment.what.starts_with("returned") ? "the end" : moment.what;
+}
+
+std::string FigureSet::row_title(std::size_t run) const {
+  const std::string returned = runs_[run]->return_in_words();
+  return runs_.size() == 1 || returned.empty() ? title(run) : title(run) + ":  " + returned;
 }
 
 std::string FigureSet::name() const {
@@ -196,7 +206,8 @@ int FigureSet::pictures() {
     for (const Snapshot& snapshot : moment)
       options.camera.frame.extend(seen(options_.view, snapshot));
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const auto& [frame, what] = chosen[k];
+    const std::size_t frame = chosen[k].frame;
+    const std::string what = words_of(chosen[k]);
     std::vector<Snapshot> moment = at_moments()[k];
     if (!what.empty()) moment.front().caption = what + ",  " + moment.front().caption;
     const auto on = [&](const Paper& paper) {
@@ -238,7 +249,7 @@ void FigureSet::sheet() {
   std::vector<std::vector<Snapshot>> over_time(runs_.size());
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     std::vector<Snapshot> moment = at_moments()[k];
-    moment.front().caption += '\n' + chosen[k].what;
+    moment.front().caption += '\n' + words_of(chosen[k]);
     for (std::size_t run = 0; run < runs_.size(); ++run)
       over_time[run].push_back(std::move(moment[run]));
   }
@@ -269,7 +280,7 @@ void FigureSet::sheet() {
   }
   std::vector<SheetRow> rows;
   for (std::size_t run = 0; run < runs_.size(); ++run)
-    rows.push_back({&painters_[run], &over_time[run], drawn(run).preset.view, title(run)});
+    rows.push_back({&painters_[run], &over_time[run], drawn(run).preset.view, row_title(run)});
   write(rows, name() + "_sheet.png");
 }
 

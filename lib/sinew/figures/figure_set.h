@@ -28,9 +28,9 @@ struct FigureSetOptions {
   PageFiles files;
   bool axes = false;  ///< the scene's, in a corner
   double orbit = 0;   ///< turn of the camera over the movie, about the body's upright axis, rad
-  std::optional<std::array<double, 2>> range;  ///< range of the colors; by default the run's own
-  std::vector<double> times;                   ///< s; empty: the run's key frames
-  std::function<void()> drawn = [] {};         ///< called after each picture and frame of a movie
+  std::optional<ValueRange> range;      ///< range of the colors; by default the run's own
+  std::vector<double> times;            ///< s; empty: the run's key frames
+  std::function<void()> drawn = [] {};  ///< called after each picture and frame of a movie
 };
 
 /// Throws bad input where pictures of this size take more than `available` bytes.
@@ -68,6 +68,8 @@ class FigureSet {
   std::vector<Panel> panels(const std::vector<Snapshot>& snapshots);
   FigureOptions figure_options(Finish finish) const;
   std::string title(std::size_t run) const;
+  std::string words_of(const KeyMoment& moment) const;
+  std::string row_title(std::size_t run) const;
   std::string name() const;
   std::string place(const std::string& file) const { return (options_.folder / file).string(); }
   bool of_body() const { return runs_.size() == 1 && drawn(0).preset.name == "body"; }

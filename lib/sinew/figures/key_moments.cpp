@@ -2,6 +2,7 @@
 #include <sinew/figures/key_moments.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <sinew/core/text.h>
 #include <sinew/figures/snapshots.h>
@@ -23,17 +24,39 @@ std::vector<std::size_t> spread_over(std::size_t frames) {
   return chosen;
 }
 
-std::string end_of(const RunOverview& overview, double radius, double most) {
-  const double off = overview.shift.back() / radius;
-  if (overview.angle.back() > returned_turn * most) return "the end";
-  return off < near_rest ? "returned" : "returned, " + three_digits(off) + " r off";
+double largest_turn(const RunOverview& overview) {
+  return *std::max_element(overview.angle.begin(), overview.angle.end());
+}
+
+/// At most thirty bytes of a name, of whole letters.
+std::string shortened(std::string name) {
+  constexpr std::size_t most = 30;
+  if (name.size() <= most) return name;
+  std::size_t end = most - 3;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
+  return name.substr(0, end) + "...";
+}
+
+/// Two digits are as many as anybody compares.
+std::string radii_text(double radii) {
+  const double step = std::pow(10, std::floor(std::log10(radii)) - 1);
+  return three_digits(std::round(radii / step) * step) + " r";
 }
 
 }  // namespace
 
+std::string return_in_words(const RunOverview& overview, double radius) {
+  const double most = largest_turn(overview);
+  if (most < min_turn || overview.angle.back() > returned_turn * most) return "";
+  const double off = overview.shift.back() / radius, farthest = overview.farthest.back() / radius;
+  if (farthest < near_rest) return "returned";
+  return "returned, " + radii_text(std::max(off, near_rest / 10)) + " off in the mean, " +
+         radii_text(farthest) + " at most";
+}
+
 std::vector<KeyMoment> key_moments(const RunOverview& overview, double radius) {
   const std::vector<double>& angle = overview.angle;
-  const double most = *std::max_element(angle.begin(), angle.end());
+  const double most = largest_turn(overview);
   const std::size_t last = angle.size() - 1;
   std::vector<KeyMoment> moments;
   if (most < min_turn)
@@ -43,8 +66,11 @@ std::vector<KeyMoment> key_moments(const RunOverview& overview, double radius) {
     while (angle[half] < most / 2) ++half;
     for (std::size_t i = 0; i < angle.size(); ++i)
       if (angle[i] >= most * (1 - 1e-5)) farthest = i;
-    moments = {{0, ""}, {half, "half way"}, {farthest, "largest turn"}};
-    if (last != farthest) moments.push_back({last, end_of(overview, radius, most)});
+    const std::string what =
+        "largest turn" + (overview.turned.empty() ? "" : ", of " + shortened(overview.turned));
+    moments = {{0, ""}, {half, "half way"}, {farthest, what}};
+    const std::string returned = return_in_words(overview, radius);
+    if (last != farthest) moments.push_back({last, returned.empty() ? "the end" : returned});
     std::stable_sort(moments.begin(), moments.end(),
                      [](const KeyMoment& a, const KeyMoment& b) { return a.frame < b.frame; });
     const auto same = [](const KeyMoment& a, const KeyMoment& b) { return a.frame == b.frame; };
@@ -52,6 +78,15 @@ std::vector<KeyMoment> key_moments(const RunOverview& overview, double radius) {
   }
   if (overview.shift.front() < near_rest * radius) moments.front().what = "at rest";
   return moments;
+}
+
+Turned largest_turn(const RunFiles& run, const FrameState& frame) {
+  Turned most;
+  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
+    const Mat3 turn = frame.bones[b].rotation * run.skeleton.bones[b].rest.rotation.transpose();
+    if (const double angle = Eigen::AngleAxisd(turn).angle(); angle > most.angle) most = {angle, b};
+  }
+  return most;
 }
 
 }  // namespace sinew

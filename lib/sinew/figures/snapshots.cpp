@@ -5,12 +5,14 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <string_view>
 
 #include <sinew/core/error.h>
 #include <sinew/core/local_origin.h>
 #include <sinew/core/text.h>
 #include <sinew/figures/scene_picture.h>
+#include <sinew/figures/view_ranges.h>
 #include <sinew/render/camera.h>
 #include <sinew/run/run_files.h>
 
@@ -48,15 +50,6 @@ constexpr double arrow_spacing = 0.03;  // fraction of the longest side: closer 
 constexpr double weakest_line = 0.1;    // fraction of the largest stress: below it the lines end
 constexpr double beside_plane = 1.1;    // radii: one layer of particles
 
-double largest_turn(const RunFiles& run, const FrameState& frame) {
-  double most = 0;
-  for (std::size_t b = 0; b < frame.bones.size(); ++b) {
-    const Mat3 turn = frame.bones[b].rotation * run.skeleton.bones[b].rest.rotation.transpose();
-    most = std::max(most, Eigen::AngleAxisd(turn).angle());
-  }
-  return most;
-}
-
 std::vector<std::size_t> traced_places(const RunFiles& run, const std::vector<int>& ids) {
   std::vector<std::size_t> places;
   for (const int id : ids) {
@@ -80,10 +73,13 @@ Vec3 mean_of(const Points& points) {
   return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
+double quadratic_mean(const std::vector<double>& values) {
+  const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
   return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double largest_of(const std::vector<double>& values) {
+  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
 
 /// What is shown where nobody asked for an array: strain as the run has written it. Of bodies for
@@ -93,17 +89,16 @@ std::string array_of(const ViewPreset& preset, const RunFiles& run) {
   return has_array(run, run.particle_rows.front(), "strain_eq") ? "strain_eq" : "displacement";
 }
 
-void widen(DrawnValues::Range& range, const DrawnValues::Range& other, bool first) {
-  range.low = first ? other.low : std::min(range.low, other.low);
-  range.high = first ? other.high : std::max(range.high, other.high);
-  range.leaves_out = range.leaves_out || other.leaves_out;
-}
-
 }  // namespace
+
+std::string DrawnView::quantity() const {
+  return bonds || pulls || preset.view == View::curves ? "" : quantity_of(values.quantity());
+}
 
 DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
     : run_(open_run({folder})), options_(std::move(options)) {
-  for (const ViewPreset& preset : options_.presets) views_.push_back(applied(preset));
+  apply_presets();
+  ranges_ = run_.ranges;
   if (options_.by_front) face_front();
   select_bones();
   for (const std::size_t held : held_in_frames(run_)) {
@@ -112,6 +107,16 @@ DrawnRun::DrawnRun(const std::string& folder, DrawnRunOptions options)
   }
   forces_.emplace(run_);
   read_overview();
+}
+
+void DrawnRun::apply_presets() {
+  for (const ViewPreset& preset : options_.presets) try {
+      views_.push_back(applied(preset));
+    } catch (const Error& error) {
+      if (error.exit() != Exit::bad_input || options_.presets.size() == 1) throw;
+      left_out_.push_back({std::string(preset.name), error.what()});
+    }
+  if (views_.empty() && !left_out_.empty()) applied(options_.presets.front());  // throws
 }
 
 DrawnView DrawnRun::applied(const ViewPreset& preset) const {
@@ -125,6 +130,8 @@ DrawnView DrawnRun::applied(const ViewPreset& preset) const {
         (has_skin && !options_.array.empty()))
       drawn.skin.emplace(run_, drawn.values);
     if (preset.view == View::cut || preset.view == View::curves) drawn.volume = volume();
+    if (preset.view == View::curves)
+      largest_principals(drawn.values.column(0, read_frame(run_, 0)));
     return drawn;
   }
   if (!options_.array.empty())
@@ -172,27 +179,24 @@ void DrawnRun::Extent::extend(const Mat3& view, const Snapshot& snapshot) {
   around.extend(snapshot);
 }
 
-DrawnValues::Range DrawnRun::range_in(std::size_t index, const FrameState& frame,
+double DrawnRun::strongest_pull(const FrameState& frame, const DrawnView& drawn) const {
+  double strongest = 0;
+  for (const DrawnPull& pull : drawn.pulls->at(frame))
+    if (is_selected(pull.particle)) strongest = std::max(strongest, pull.strongest());
+  return strongest;
+}
+
+/// The values of a frame from which the range of a view comes.
+std::vector<double> DrawnRun::colored(std::size_t index, const FrameState& frame,
                                       const DrawnView& drawn) const {
-  if (drawn.pulls) {
-    double strongest = 0;
-    for (const DrawnPull& pull : drawn.pulls->at(frame))
-      if (is_selected(pull.particle)) strongest = std::max(strongest, pull.strongest());
-    return {0, strongest};
-  }
-  std::vector<double> values;
   if (drawn.preset.view == View::curves)
-    return {0, DrawnValues::range_of(largest_principals(drawn.values.column(index, frame))).high};
-  if (!drawn.bonds) {
-    if (drawn.preset.view != View::surface || !drawn.skin) values = drawn.values.at(index, frame);
-    if (drawn.skin) {
-      const std::vector<double> of_skin = drawn.skin->at(index, frame);
-      values.insert(values.end(), of_skin.begin(), of_skin.end());
-    }
-    return DrawnValues::range_of(std::move(values));
-  }
+    return largest_principals(drawn.values.column(index, frame));
+  if (!drawn.bonds)
+    return drawn.skin && !drawn.values.is_of_particles() ? drawn.skin->at(index, frame)
+                                                         : drawn.values.at(index, frame);
+  std::vector<double> values;
   for (const DrawnBond& bond : drawn.bonds->at(index)) values.push_back(bond.value);
-  return DrawnValues::range_of(std::move(values));
+  return values;
 }
 
 /// Refuses a plane that misses the body at all times; `body` is around it then.
@@ -224,47 +228,76 @@ Vec3 DrawnRun::travel(std::size_t index) const {
   return overview_.travel.empty() ? Vec3::Zero().eval() : overview_.travel[index];
 }
 
+/// What is found on the way through the frames.
+struct DrawnRun::Walk {
+  std::vector<std::size_t> traced;
+  Vec3 start;              ///< mean place of the particles at rest, m
+  Extent still, followed;  ///< for cameras that stay, and that follow the body
+  JointTurns turns;
+  RangesOfViews ranges;
+  Box body = {}, body_followed = {};
+  double farthest = 0;  ///< how far the body goes over the ground, m
+  Turned widest = {};
+};
+
 void DrawnRun::read_overview() {
-  const std::vector<std::size_t> traced = traced_places(run_, options_.traced);
   const Points rest = positions_of(run_.body.particles);
-  const Vec3 start = mean_of(rest);
-  overview_.paths.resize(traced.size());
   overview_.origin = local_origin(bounds(run_.surface.points));
   overview_.around.axis = bounds(rest).center() - overview_.origin;
-  Extent still{{}, overview_.around}, followed = still;
+  const Extent around{{}, overview_.around};
+  Walk walk{traced_places(run_, options_.traced),
+            mean_of(rest),
+            around,
+            around,
+            JointTurns(run_),
+            RangesOfViews(ranges_)};
+  overview_.paths.resize(walk.traced.size());
   FramesInOrder frames(run_, options_.ahead);
-  Box body, body_followed;
-  JointTurns turns(run_);
-  double farthest = 0;
-  for (std::size_t i = 0; i < run_.frames(); ++i) {
-    FrameState frame = frames.next();
-    overview_.angle.push_back(largest_turn(run_, frame));
-    turns.add(frame);
-    overview_.shift.push_back(root_mean_square(displacements(run_, frame)));
-    for (DrawnView& drawn : views_) widen(drawn.range, range_in(i, frame, drawn), i == 0);
-    for (std::size_t k = 0; k < traced.size(); ++k)
-      overview_.paths[k].push_back(frame.positions[traced[k]]);
-    const Box now = bounds(frame.positions).merged(bounds(frame.surface_points));
-    const Vec3 moved = mean_of(frame.positions) - start;
-    overview_.travel.emplace_back(moved.x(), moved.y(), 0);
-    farthest = std::max(farthest, overview_.travel.back().norm());
-    body.extend(now), body_followed.extend(now.translated(-overview_.travel.back()));
-    Snapshot snapshot = snapshot_of(run_, std::move(frame), 0);
-    sinew::shift(snapshot, -overview_.origin);
-    still.extend(options_.view, snapshot);
-    sinew::shift(snapshot, -overview_.travel.back());
-    followed.extend(options_.view, snapshot);
-  }
+  for (std::size_t i = 0; i < run_.frames(); ++i) add(walk, i, frames.next());
+  for (std::size_t v = 0; v < views_.size(); ++v) walk.ranges.put(views_[v], v);
+  if (walk.widest.angle > 0) overview_.turned = run_.skeleton.bones[walk.widest.bone].name;
   // Bodies that go farther than they are large are followed, but where paths are drawn.
   const bool follows =
-      options_.follows && traced.empty() && farthest > bounds(rest).diagonal().norm();
+      options_.follows && walk.traced.empty() && walk.farthest > bounds(rest).diagonal().norm();
   if (!follows) overview_.travel.clear();
-  check_plane(body);
+  check_plane(walk.body);
   overview_.plane =
-      options_.plane ? DrawnPlane(*options_.plane) : DrawnPlane(run_, turns, options_.view);
+      options_.plane ? DrawnPlane(*options_.plane) : DrawnPlane(run_, walk.turns, options_.view);
   overview_.obstacle_space =
-      obstacle_space((follows ? body_followed : body).translated(-overview_.origin));
-  add_surroundings(follows ? followed : still);
+      obstacle_space((follows ? walk.body_followed : walk.body).translated(-overview_.origin));
+  add_surroundings(follows ? walk.followed : walk.still);
+}
+
+void DrawnRun::add(Walk& walk, std::size_t index, FrameState frame) {
+  const Turned turned = largest_turn(run_, frame);
+  overview_.angle.push_back(turned.angle);
+  if (turned.angle > walk.widest.angle) walk.widest = turned;
+  walk.turns.add(frame);
+  const std::vector<double> moved_by = displacements(run_, frame);
+  overview_.shift.push_back(quadratic_mean(moved_by));
+  overview_.farthest.push_back(largest_of(moved_by));
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    DrawnView& drawn = views_[v];
+    if (drawn.pulls) drawn.range.high = std::max(drawn.range.high, strongest_pull(frame, drawn));
+    if (walk.ranges.wants(drawn, v)) walk.ranges.add(drawn, v, colored(index, frame, drawn));
+  }
+  for (std::size_t k = 0; k < walk.traced.size(); ++k)
+    overview_.paths[k].push_back(frame.positions[walk.traced[k]]);
+  add_extent(walk, std::move(frame));
+}
+
+/// How far the body goes, and what cameras have to show of it.
+void DrawnRun::add_extent(Walk& walk, FrameState frame) {
+  const Box now = bounds(frame.positions).merged(bounds(frame.surface_points));
+  const Vec3 moved = mean_of(frame.positions) - walk.start;
+  const Vec3& travel = overview_.travel.emplace_back(moved.x(), moved.y(), 0);
+  walk.farthest = std::max(walk.farthest, travel.norm());
+  walk.body.extend(now), walk.body_followed.extend(now.translated(-travel));
+  Snapshot snapshot = snapshot_of(run_, std::move(frame), 0);
+  sinew::shift(snapshot, -overview_.origin);
+  walk.still.extend(options_.view, snapshot);
+  sinew::shift(snapshot, -travel);
+  walk.followed.extend(options_.view, snapshot);
 }
 
 /// Sets the extents of the overview: those of the body, and of what is around it.
@@ -302,15 +335,22 @@ std::size_t DrawnRun::frame_at(double time) const {
 }
 
 std::vector<KeyMoment> DrawnRun::key_moments() const {
-  return sinew::key_moments(overview_, run_.body.particles.radius);
+  std::vector<KeyMoment> moments = sinew::key_moments(overview_, run_.body.particles.radius);
+  if (run_.settings.solver.method != Method::dynamic)
+    for (KeyMoment& moment : moments)
+      if (moment.what.empty()) moment.what = "in equilibrium";
+  return moments;
 }
 
-/// Keeps the particles that are there at rest.
-void DrawnRun::keep(Snapshot& snapshot, const std::function<bool(const Vec3&)>& is_kept) const {
-  const Points rest = positions_of(run_.body.particles);
+std::string DrawnRun::return_in_words() const {
+  return sinew::return_in_words(overview_, run_.body.particles.radius);
+}
+
+/// Keeps some of the particles.
+void DrawnRun::keep(Snapshot& snapshot, const std::function<bool(std::size_t i)>& is_kept) const {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    if (!is_kept(rest[i])) continue;
+  for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
+    if (!is_kept(i)) continue;
     snapshot.particles[kept] = snapshot.particles[i];
     if (!snapshot.marks.empty()) snapshot.marks[kept] = snapshot.marks[i];
     snapshot.values[kept++] = snapshot.values[i];
@@ -329,7 +369,23 @@ void DrawnRun::show_section(Snapshot& snapshot) const {
     if (std::abs(axis.dot(back)) > std::abs(across.dot(back))) across = axis;
   if (across.dot(back) < 0) across = -across;
   const double middle = across.dot(bounds(positions_of(run_.body.particles)).center());
-  keep(snapshot, [&](const Vec3& rest) { return across.dot(rest) <= middle; });
+  const Points rest = positions_of(run_.body.particles);
+  keep(snapshot, [&](std::size_t i) { return across.dot(rest[i]) <= middle; });
+  snapshot.opened = true;
+  std::vector<bool> is_before;  // one per bone that is drawn
+  for (std::size_t b = 0; b < run_.skeleton.size(); ++b)
+    if (const Bone& bone = run_.skeleton.bones[b]; selected_.empty() || selected_[b])
+      is_before.push_back(across.dot(bone.head() + bone.tail()) / 2 > middle);
+  hide_bones(snapshot, [&](std::size_t bone) { return is_before[bone]; });
+}
+
+/// Bones in the part that is left out would hang in the air.
+void DrawnRun::hide_bones(Snapshot& snapshot,
+                          const std::function<bool(std::size_t bone)>& is_left_out) const {
+  std::vector<SnapshotBone> bones;
+  for (std::size_t b = 0; b < snapshot.bones.size(); ++b)
+    if (!is_left_out(b)) bones.push_back(snapshot.bones[b]);
+  snapshot.bones = std::move(bones);
 }
 
 /// The skin left of the plane through the body's middle that the viewer sees edge-on at rest, the
@@ -339,7 +395,8 @@ void DrawnRun::halve(Snapshot& snapshot) const {
   const double middle = right.dot(bounds(positions_of(run_.body.particles)).center());
   for (const Vec3& rest : run_.surface.points)
     snapshot.skin_sides.push_back(right.dot(rest) - middle);
-  keep(snapshot, [&](const Vec3& rest) { return right.dot(rest) > middle; });
+  const Points rest = positions_of(run_.body.particles);
+  keep(snapshot, [&](std::size_t i) { return right.dot(rest[i]) > middle; });
 }
 
 /// The skin behind the plane alone.
@@ -347,6 +404,11 @@ void DrawnRun::open_skin(Snapshot& snapshot, const CutPlane& plane) const {
   snapshot.skin_sides.clear();
   for (const Vec3& point : snapshot.surface.points)
     snapshot.skin_sides.push_back(plane.distance(point));
+  snapshot.opened = true;
+  hide_bones(snapshot, [&](std::size_t b) {
+    const SnapshotBone& bone = snapshot.bones[b];
+    return plane.distance((bone.head + bone.tail) / 2) > snapshot.radius;
+  });
 }
 
 void DrawnRun::color_skin(Snapshot& snapshot, std::vector<double> values) const {
@@ -450,8 +512,8 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   if (drawn.skin) of_skin = drawn.skin->at(index, frame);
   std::vector<DrawnPull> pulls;
   if (drawn.pulls) pulls = drawn.pulls->at(frame);
-  SnapshotCut cut;
-  if (view == View::cut) cut = drawn.volume->cut(index, frame, values, plane);
+  DrawnVolume::Opened opened;
+  if (view == View::cut) opened = drawn.volume->cut(index, frame, values, plane);
   std::vector<SnapshotCurve> curves;
   if (view == View::curves)
     curves = drawn.volume->lines(index, frame, drawn.values.column(index, frame),
@@ -459,7 +521,7 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   Snapshot snapshot = snapshot_of(run_, std::move(frame), overview_.angle[index]);
   snapshot.values = std::move(values);
   snapshot.marks = marks_;
-  snapshot.cut = std::move(cut);
+  snapshot.cut = std::move(opened.cut);
   snapshot.curves = std::move(curves);
   show_selected(snapshot);
   color_skin(snapshot, std::move(of_skin));
@@ -470,7 +532,13 @@ Snapshot DrawnRun::snapshot(std::size_t index, const DrawnView& drawn) const {
   if (drawn.bonds) add_bonds(snapshot, index, drawn);
   if (drawn.preset.cut_open) show_section(snapshot);
   if (view == View::halves) halve(snapshot);
-  if (view == View::cut) open_skin(snapshot, plane);
+  if (view == View::cut) {
+    open_skin(snapshot, plane);
+    const Points now = snapshot.particles;
+    keep(snapshot, [&](std::size_t i) {
+      return opened.in_hole[i] && plane.distance(now[i]) < -snapshot.radius;
+    });
+  }
   if (view == View::arrows) add_arrows(snapshot, index, drawn, plane);
   const Vec3 moved = travel(index);
   sinew::shift(snapshot, -overview_.origin - moved);

@@ -37,8 +37,10 @@ struct DrawnView {
   std::optional<DrawnBonds> bonds;  ///< where the preset's view is of lines: colored instead
   std::optional<DrawnPulls> pulls;  ///< where it is of the binding
   std::shared_ptr<const DrawnVolume> volume = nullptr;  ///< where it is of the volume
-  DrawnValues::Range range = {};  ///< range of what is colored or drawn as arrows, over all frames
+  ValueRange range = {};  ///< range of what is colored or drawn as arrows, over all frames
 
+  /// Key in the ranges of a run; "": of what is drawn here alone.
+  std::string quantity() const;
   /// The largest force is drawn as the longest arrow; false where all are rounding.
   bool is_pulled() const { return pulls && range.high > pulls->negligible(); }
   const std::string& name() const { return bonds ? bonds->name() : values.name(); }
@@ -46,8 +48,10 @@ struct DrawnView {
 };
 
 struct RunOverview {
-  std::vector<double> angle;  ///< per frame: largest turn of a bone since rest, rad
-  std::vector<double> shift;  ///< per frame: root mean square of the particles' displacements, m
+  std::vector<double> angle;     ///< per frame: largest turn of a bone since rest, rad
+  std::vector<double> shift;     ///< per frame: quadratic mean of the displacements of particles, m
+  std::vector<double> farthest;  ///< per frame: the largest of these, m
+  std::string turned = {};       ///< name of the bone that turns most
   /// Per frame: how far the camera has followed the body over the ground, m; empty: it stays.
   std::vector<Vec3> travel;
   /// Near the body, m: what is drawn is relative to it, so that runs far apart are compared.
@@ -74,7 +78,8 @@ struct DrawnRunOptions {
 
 class DrawnRun {
  public:
-  /// Reads all frames once. Throws bad input, also for bones and particles that the run lacks.
+  /// Reads all frames once. Throws bad input, also for bones and particles that the run lacks, and
+  /// where none of the presets can be drawn.
   DrawnRun(const std::string& folder, DrawnRunOptions options);
   DrawnRun(const DrawnRun&) = delete;
   DrawnRun& operator=(const DrawnRun&) = delete;
@@ -82,6 +87,13 @@ class DrawnRun {
   const RunFiles& files() const { return run_; }
   const RunOverview& overview() const { return overview_; }
   const std::vector<DrawnView>& view_presets() const { return views_; }
+  /// A preset of several that cannot be drawn of this run, and why: they are not among the views.
+  struct LeftOut {
+    std::string preset, why;
+  };
+  const std::vector<LeftOut>& left_out() const { return left_out_; }
+  /// Ranges of quantities: those that the run has recorded, and those found for its views.
+  const ValueRanges& ranges() const { return ranges_; }
   std::string name() const;  ///< name of its folder
   const Mat3& view() const { return options_.view; }
 
@@ -90,6 +102,7 @@ class DrawnRun {
   /// The force of a support or a load that the longest arrow at any time stands for, N; 0: none.
   double strongest_force() const { return forces_->strongest(); }
   std::vector<KeyMoment> key_moments() const;
+  std::string return_in_words() const;  ///< see key_moments.h
 
   Snapshot snapshot(std::size_t index, const DrawnView& drawn) const;
   /// The same moment's body, cut open in the colors of its view. Throws as DrawnVolume does.
@@ -103,23 +116,30 @@ class DrawnRun {
     void extend(const Mat3& view, const Snapshot& snapshot);
   };
 
+  void apply_presets();
   DrawnView applied(const ViewPreset& preset) const;
   void select_bones();
   void face_front();
   Vec3 travel(std::size_t index) const;
+  struct Walk;
   void read_overview();
+  void add(Walk& walk, std::size_t index, FrameState frame);
+  void add_extent(Walk& walk, FrameState frame);
   void add_surroundings(Extent extent);
   void check_plane(const Box& body) const;
-  DrawnValues::Range range_in(std::size_t index, const FrameState& frame,
+  std::vector<double> colored(std::size_t index, const FrameState& frame,
                               const DrawnView& drawn) const;
+  double strongest_pull(const FrameState& frame, const DrawnView& drawn) const;
   bool is_selected(std::size_t particle) const;
   void show_selected(Snapshot& snapshot) const;
   void add_traces(Snapshot& snapshot, std::size_t index) const;
   void add_bonds(Snapshot& snapshot, std::size_t index, const DrawnView& drawn) const;
   void add_pulls(Snapshot& snapshot, const std::vector<DrawnPull>& pulls,
                  const DrawnView& drawn) const;
-  void keep(Snapshot& snapshot, const std::function<bool(const Vec3&)>& is_kept) const;
+  void keep(Snapshot& snapshot, const std::function<bool(std::size_t i)>& is_kept) const;
   std::shared_ptr<const DrawnVolume> volume() const;
+  void hide_bones(Snapshot& snapshot,
+                  const std::function<bool(std::size_t bone)>& is_left_out) const;
   void show_section(Snapshot& snapshot) const;
   void halve(Snapshot& snapshot) const;
   void open_skin(Snapshot& snapshot, const CutPlane& plane) const;
@@ -131,6 +151,8 @@ class DrawnRun {
   RunFiles run_;
   DrawnRunOptions options_;
   std::vector<DrawnView> views_;
+  std::vector<LeftOut> left_out_;
+  ValueRanges ranges_;
   RunOverview overview_;
   std::optional<ShownForces> forces_;
   std::vector<bool> selected_;  ///< bones; empty: all

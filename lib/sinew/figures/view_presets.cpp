@@ -19,7 +19,7 @@ constexpr std::array<ViewPreset, 12> all_view_presets = {{
     {"halves", View::halves, false, "strain",
      "half of the skin, beside it the particles, in color"},
     {"cut", View::cut, false, "strain",
-     "the volume cut open by a plane, without torn cells, in color"},
+     "the volume cut open by a plane, in color; particles where its cells are torn"},
     {"particles", View::particles, false, "displacement", "spheres of their true size"},
     {"section", View::both, true, deformation, "the body cut open along its middle"},
     {"strain", View::particles, false, "strain", "particles by their equivalent strain"},

@@ -45,8 +45,9 @@ double bytes_per_particle(const PackOptions& options) {
 
 // Particles have ids of 32 bits.
 constexpr double max_ids = std::numeric_limits<std::int32_t>::max();
-constexpr double farthest_origin = 1e4;  // lengths of the body
-constexpr double enough = 100;           // particles at a proposed radius
+// In lengths of the body: doubles place a site there to 1e-12 of that length.
+constexpr double farthest_origin = 1e4;
+constexpr double enough = 100;  // particles at a proposed radius
 constexpr double finest = 400;  // radii along the box, in the search for a radius that fits
 
 const char* const thicken = "give a thickness to fill a layer along the surface";

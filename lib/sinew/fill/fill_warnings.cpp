@@ -15,14 +15,11 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-constexpr double much_lost = 0.01;           // fraction of the volume
-constexpr double much_missed = 0.05;         // fraction of the requested count
+constexpr double much_lost = 0.01;  // fraction of the volume
+// Fraction of the requested count: rows of particles enter at once where the radius changes.
+constexpr double much_missed = 0.05;
 constexpr double coarse = 1e-5;              // radii: strains of bonds are as coarse
 constexpr double huge = 100, minute = 1e-3;  // m: outside of these the unit may be wrong
-
-std::string counted(std::size_t count, const std::string& what, const std::string& many) {
-  return std::to_string(count) + ' ' + (count == 1 ? what : many);
-}
 
 std::string percent(double fraction) { return three_digits(100 * fraction) + " %"; }
 
@@ -150,6 +147,10 @@ std::optional<std::string> size_warning(double longest) {
   if (longest <= huge && longest >= minute) return std::nullopt;
   return "the body is " + three_digits(longest) +
          " m long: if its lengths are given in another unit, set the unit";
+}
+
+std::string counted(std::size_t count, const std::string& what, const std::string& many) {
+  return std::to_string(count) + ' ' + (count == 1 ? what : many);
 }
 
 Warnings warnings_of(const FillReport& report, const Surface& surface) {

@@ -21,6 +21,9 @@ std::vector<std::string> warnings_of(const FillReport& report, const Surface& su
 std::optional<std::string> cell_warning(double cells, double volume, double radius,
                                         const Surface& surface);
 
+/// "1 hole", "2 holes".
+std::string counted(std::size_t count, const std::string& what, const std::string& many);
+
 /// A warning where a body of that length (m) is so large or so small that its unit may be wrong.
 std::optional<std::string> size_warning(double longest);
 

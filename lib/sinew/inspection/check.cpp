@@ -31,47 +31,8 @@
 namespace sinew {
 namespace {
 
-// The trial's lists are valid for all its steps; those of a deforming body must be rebuilt.
-constexpr double slower_with_lists_in_motion = 1.8;
-
 constexpr int trials_of_small_bodies = 3;  // whose steps take so little that trials differ
 constexpr std::size_t small_body = 50000, smallest_group = 64;  // particles
-
-/// Particle-steps per second, measured in a trial with bones at rest; a typical value where the
-/// body becomes unstable.
-double speed_at_rest(Prepared prepared, std::vector<std::string>& warnings) {
-  const double usual = usual_speed(stepper_choice(prepared.settings.solver));
-  const auto particles = static_cast<double>(prepared.filled.particles.size());
-  prepared.motion = {};
-  Simulation simulation = start(std::move(prepared));
-  double spent = 0;
-  int steps = 0;
-  try {
-    simulation.step();
-    for (Stopwatch watch; steps < 20 && spent < 0.5; ++steps) {
-      simulation.step();
-      spent += watch.lap();
-    }
-  } catch (const Error& error) {
-    if (error.exit() != Exit::unstable) throw;
-    warnings.push_back(std::string("the body leaves its bones at once: ") + error.what());
-  }
-  return steps > 0 ? steps * particles / spent : usual;
-}
-
-double speed_in_motion(const Prepared& prepared, const StepperChoice& choice, double at_rest) {
-  const bool lists_are_made_again =
-      choice.search == NeighborSearch::lists && !prepared.motion.tracks.empty();
-  return lists_are_made_again ? at_rest / slower_with_lists_in_motion : at_rest;
-}
-
-void warn_of_memory(const Needs& needs, std::vector<std::string>& warnings) {
-  const double available = available_memory(), needed = static_cast<double>(needs.memory);
-  if (needed > available)
-    warnings.push_back("the run needs about " + bytes_text(needed) + " of memory, " +
-                       bytes_text(available) +
-                       " are free: make body.radius larger, or use solver.precision single");
-}
 
 double initial_kinetic_energy(const Prepared& prepared) {
   Particles particles = prepared.filled.particles;
@@ -158,9 +119,9 @@ void add_planes(const Body& body, Findings& results) {
       [](const auto& a, const auto& b) { return a.bending_modulus() < b.bending_modulus(); });
   auto all = nlohmann::ordered_json::array();
   for (const BoneStiffness& bone : bones) {
-    results.add_line("along_bone", bone.bone + ", " + three_digits(bone.young_modulus) + " Pa, " +
-                                       three_digits(bone.planes) + " planes across, bends " +
-                                       three_digits(100 * bone.lack) + " % softer by its size");
+    results.add_line("along_bone",
+                     bone.bone + ", bends with " + quantity_text(bone.bending_modulus(), "Pa") +
+                         ": " + parts_of_modulus(bone.young_modulus, bone.lack, bone.planes));
     all.push_back({{"bone", bone.bone},
                    {"young_modulus", bone.young_modulus},
                    {"planes_across", bone.planes},
@@ -178,10 +139,9 @@ void add_spans(const Prepared& prepared, Findings& results) {
   auto all = nlohmann::ordered_json::array();
   for (const SpanStiffness& span : stiffness_between_grips(prepared)) {
     results.add_line("along_span",
-                     span.from + " to " + span.to + ", " + three_digits(span.young_modulus) +
-                         " Pa, " + three_digits(span.planes) + " planes across, " +
-                         (span.bends ? "bends up to " : "pulls up to ") +
-                         three_digits(100 * span.lack_shown()) + " % softer by its size");
+                     span.from + " to " + span.to + (span.bends ? ", bends" : ", is pulled") +
+                         " with " + quantity_text(span.shown_modulus(), "Pa") + ": " +
+                         parts_of_modulus(span.young_modulus, span.lack_shown(), span.planes));
     all.push_back({{"from", span.from},
                    {"to", span.to},
                    {"bends", span.bends},
@@ -366,12 +326,9 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
   const Needs needs = needs_of(prepared);
   const StepperChoice choice = stepper_choice(prepared.settings.solver);
   const double speed = farthest_carried(prepared);
-  check.warnings = warnings_of(prepared, speed);
-  warn_of_stiffness(prepared, check.warnings);
-  warn_of_memory(needs, check.warnings);
-  for (const std::string& warning : prepared.report->warnings) check.warnings.push_back(warning);
+  check.warnings = warnings_before_trials(prepared, speed);
   const double at_rest = speed_at_rest(prepared, check.warnings);
-  const double rate = speed_in_motion(prepared, choice, at_rest);
+  const double rate = speed_in_motion(prepared, at_rest);
   const double work = static_cast<double>(prepared.plan.steps_until(prepared.frames.count)) *
                       static_cast<double>(prepared.filled.particles.size());
   add_sizes(prepared, results);
@@ -403,6 +360,7 @@ SceneCheck check_scene(const Prepared& prepared, const std::filesystem::path& fo
     results.add(key, bytes_text(static_cast<double>(bytes)));
   results.add("particle_steps_per_second", rate);
   if (!prepared.load_steps) results.add("stepping_time", work / rate, "s");
+  shortest_first(check.warnings);
   return check;
 }
 

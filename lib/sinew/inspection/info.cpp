@@ -10,6 +10,7 @@
 #include <sinew/core/text.h>
 #include <sinew/inspection/mesh_info.h>
 #include <sinew/io/checksums.h>
+#include <sinew/io/gltf/geometry.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
 #include <sinew/run/run_folder.h>
@@ -65,10 +66,17 @@ void add_tree(const Skeleton& skeleton, int parent, const std::string& indent, F
   }
 }
 
-Json listed(const std::vector<Clip>& clips) {
+Json names_of(const Skeleton& skeleton, const std::vector<int>& bones) {
+  Json names = Json::array();
+  for (const int bone : bones) names.push_back(skeleton.bones[static_cast<std::size_t>(bone)].name);
+  return names;
+}
+
+Json listed(const Skeleton& skeleton, const std::vector<Clip>& clips) {
   Json list = Json::array();
   for (const Clip& clip : clips)
     list.push_back({{"name", clip.name},
+                    {"moves", names_of(skeleton, moving_bones(skeleton, clip.motion).all)},
                     {"frames", clip.frames},
                     {"frame_time", clip.frame_time},
                     {"begin", wait_of(clip)},
@@ -83,20 +91,25 @@ Json listed(const Skeleton& skeleton) {
   return list;
 }
 
-void add_clip_info(const std::vector<Clip>& clips, Findings& results) {
+void add_clip_info(const Skeleton& skeleton, const std::vector<Clip>& clips, Findings& results) {
   const Clip none;
   const Clip& first = clips.empty() ? none : clips.front();
   results.add("frames", first.frames);
   results.add("frame_time", first.frame_time, "s");
   if (wait_of(first) > 0) results.add("begin", wait_of(first), "s");
   results.add("duration", first.duration, "s");
-  for (const Clip& clip : clips) results.add_line("clip", clip.name);
-  results.add_value("clips", listed(clips));
+  for (const Clip& clip : clips) {
+    results.add_line("clip", clip.name);
+    const std::size_t moving = moving_bones(skeleton, clip.motion).all.size();
+    results.add_line("  moves", std::to_string(moving) + " of " + std::to_string(skeleton.size()) +
+                                    " bones in " + three_digits(clip.duration) + " s");
+  }
+  results.add_value("clips", listed(skeleton, clips));
 }
 
 void add_rig_info(const Rig& rig, std::optional<double> radius, Findings& results) {
   results.add("bones", rig.skeleton.size());
-  add_clip_info(rig.clips, results);
+  add_clip_info(rig.skeleton, rig.clips, results);
   if (radius) {
     double fastest = 0;
     for (const Clip& clip : rig.clips)
@@ -130,7 +143,7 @@ void add_rig_alone_info(const Settings& settings, const std::string& name,
   }
   const Clip clip = clip_of(motion_of(settings, named), name, settings.motion.frame_rate);
   results.add("tracks", clip.motion.tracks.size());
-  add_clip_info({clip}, results);
+  add_clip_info(named, {clip}, results);
   results.add("moves", moves);
 }
 
@@ -191,6 +204,17 @@ bool add_rig_alone(const InfoOptions& options, Findings& results) {
   return true;
 }
 
+/// The parts of a file that has several.
+void add_parts(const std::string& path, Findings& results) {
+  constexpr std::size_t most = 12;
+  if (!is_gltf(path)) return;
+  const std::vector<std::string> names = gltf_mesh_names(path);
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) results.add_line("mesh", names[i]);
+  if (names.size() > most)
+    results.add_line("mesh", "and " + std::to_string(names.size() - most) + " more (--json)");
+  results.add_value("meshes", names);
+}
+
 void add_mesh(const BodyOptions& body, const std::string& drawing, Info& info) {
   const Surface surface = read_body_mesh(body);
   const MeshInfo mesh = inspect_mesh(surface);
@@ -218,13 +242,14 @@ Info info_of_file(const InfoOptions& options) {
     body = settings.body;
   } else {
     body = body_of_mesh(options);
+    add_parts(options.path, info.findings);
   }
   if (!options.drawing.empty()) {
     refuse_output(options.drawing, {options.path, body.mesh});
     refuse_file_of_run(options.drawing);
   }
   add_mesh(body, options.drawing, info);
-  info.findings.add_line("warnings", info.warnings);
+  info.findings.add_line("warnings", info.warnings.size());
   return info;
 }
 

@@ -51,6 +51,24 @@ std::int32_t face_defect(const Defects& defects, std::size_t face) {
   return defects.turned[face] ? 4 : 0;
 }
 
+void warn_of_defects(const Surface& surface, std::vector<std::string>& warnings) {
+  const Border& border = surface.border;
+  const CleaningCounts& counts = surface.cleaning;
+  if (!surface.closed())
+    warnings.push_back("the surface is open: " + counted(border.holes, "hole", "holes") +
+                       " with a border of " + three_digits(border.length) +
+                       " m; close them by body.close_holes, or repair the mesh by body.wrap");
+  if (counts.faces_turned > 0)
+    warnings.push_back(std::to_string(counts.faces_turned) + " of " +
+                       counted(surface.triangles.faces.size(), "face", "faces") +
+                       " pointed against those beside them or inward, and are turned here; turn "
+                       "them in the file for other programs");
+  if (const auto edges = border.crowded_edges + counts.edges_twisted; edges > 0)
+    warnings.push_back(counted(edges, "edge has", "edges have") +
+                       " more than two faces, or two that no direction suits; wrap the mesh by "
+                       "body.wrap where its inside is not the one meant");
+}
+
 std::vector<std::string> mesh_warnings(const Surface& surface, double ambiguous, double inside) {
   std::vector<std::string> warnings;
   if (!surface.warning.empty()) warnings.push_back(surface.warning);
@@ -61,6 +79,7 @@ std::vector<std::string> mesh_warnings(const Surface& surface, double ambiguous,
                        " % of its box is ambiguous): close its holes, or fill it with a thickness");
   else if (!(inside > 0))
     warnings.push_back("the surface encloses no volume: fill it with a thickness");
+  warn_of_defects(surface, warnings);
   return warnings;
 }
 

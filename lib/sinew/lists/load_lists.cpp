@@ -49,14 +49,14 @@ void LoadLists<Real>::set_order(std::span<const std::int32_t> id) {
 }
 
 template <class Real>
-void LoadLists<Real>::find(std::span<const double> scale, const BlockState<Real>& state,
+void LoadLists<Real>::find(std::span<const LoadAt> loads, const BlockState<Real>& state,
                            const Units& units, bool stepping) {
   const double per_force = units.time * units.time / (mass_ * units.length);
   bool changed = per_force != per_force_;
   per_force_ = per_force;
   for (std::size_t n = 0; n < given_.size(); ++n)
     if (now_[n].find(
-            scale[n], [&](std::size_t at) { return state.position(places_[n][at], units); },
+            loads[n], [&](std::size_t k) { return state.position(places_[n][k], units); },
             stepping))
       changed = true;
   if (!changed) return;

@@ -3,7 +3,7 @@
 //
 //     LoadLists<Real> loads(world.loads, mass);
 //     loads.set_order(id);
-//     loads.find(factors, state, units, true);  // before a step
+//     loads.find(now.loads, state, units, true);  // before a step
 //     step.loads = loads.arrays();
 #pragma once
 
@@ -29,8 +29,8 @@ class LoadLists {
   std::size_t size() const { return given_.size(); }
   /// The particles `id` in the kernel's order.
   void set_order(std::span<const std::int32_t> id);
-  /// At a moment with those factors on the loads; `stepping`: for a step that follows.
-  void find(std::span<const double> scale, const BlockState<Real>& state, const Units& units,
+  /// At a moment with the loads as they are then; `stepping`: for a step that follows.
+  void find(std::span<const LoadAt> loads, const BlockState<Real>& state, const Units& units,
             bool stepping);
   kernel::Loads<Real> arrays() const;
 

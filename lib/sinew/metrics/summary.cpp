@@ -188,7 +188,9 @@ VerdictItem last_item(std::span<const FrameMetrics> frames, const Summary& summa
             "frozen: its bones move nothing", Level::poor};
   const double residual = summary.residual_rms / radius;
   if (!std::isnan(residual))
-    return judged("residual after the return", residual, with_unit(residual, 2, " r"),
+    return judged("residual after the return, rms and maximum", residual,
+                  fixed(residual, 2) + " r, " +
+                      with_unit(frames.back().displacement_max / radius, 1, " r at most"),
                   residual_scale);
   const double off = frames.back().limb_turn_max;
   return judged("between a limb and its bone, at the end", off, with_unit(off, 1, "°"), limb_scale);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace sinew {
 namespace {
@@ -216,6 +217,47 @@ std::size_t metric_index(std::string_view name) {
   const auto found = std::find_if(metric_table.begin(), metric_table.end(),
                                   [&](const Metric& metric) { return metric.name == name; });
   return static_cast<std::size_t>(found - metric_table.begin());
+}
+
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// Besides those whose magnitude is what counts.
+constexpr std::array<std::string_view, 11> with_sign = {
+    "volume",        "volume_ratio", "particle_volume",   "J_min",
+    "J_mean",        "pair_energy",  "gravity_energy",    "work_of_bones",
+    "work_of_world", "bulge",        "self_intersections"};
+
+struct NamedRange {
+  std::string_view name;
+  double low, high;
+};
+constexpr NamedRange narrow_ranges[] = {{"bone_angle", 0, 180},
+                                        {"tip_angle", 0, 180},
+                                        {"limb_turn_max", 0, 180},
+                                        {"twist_jump_max", 0, 180},
+                                        {"broken_neighbors", 0, 1},
+                                        {"broken_bonds", 0, 1},
+                                        {"grouped", 0, 1},
+                                        {"candy_wrapper", -endless, 1},
+                                        {"edge_stretch_max", 1, endless},
+                                        {"area_stretch_max", 1, endless},
+                                        {"conformal_max", 1, endless},
+                                        {"symmetric_dirichlet", 4, endless}};
+
+}  // namespace
+
+ValueRange range_of(std::string_view name) {
+  for (const NamedRange& one : narrow_ranges)
+    if (one.name == name) return {one.low, one.high};
+  const auto named = [&](const auto& one) { return one.name == name; };
+  const auto metric = std::find_if(metric_table.begin(), metric_table.end(), named);
+  const bool is_size = metric != metric_table.end()
+                           ? metric->worse != Worse::magnitude
+                           : std::any_of(run_table.begin(), run_table.end(), named);
+  const bool has_sign = std::find(with_sign.begin(), with_sign.end(), name) != with_sign.end();
+  return {is_size && !has_sign ? 0 : -endless, endless};
 }
 
 }  // namespace sinew

@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include <sinew/core/value_range.h>
 #include <sinew/metrics/frame.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/metrics/summary.h>
@@ -41,5 +42,8 @@ std::span<const RunMetric> run_metrics_table();
 
 /// The index of the metric in metrics_table(); its size where there is none of that name.
 std::size_t metric_index(std::string_view name);
+
+/// The values that a metric of that name can have; all numbers for other names.
+ValueRange range_of(std::string_view name);
 
 }  // namespace sinew

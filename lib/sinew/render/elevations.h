@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A body from the front and from the side, to one scale, with axes in meters.
+// A body from the front, from the side and, if it is flat, from above, to one scale, with axes in
+// meters.
 //
 //     write_png(elevations(painter, snapshot, {.width = 1280}).pixels(), "scene.png");
 #pragma once
@@ -34,8 +35,9 @@ struct ElevationOptions {
   Paper paper = {};
 };
 
-/// Front (x to the right) and side (y to the right), z up, as View::plan shows them; below them the
-/// caption, and what balls and colors mean. Throws as Painter::draw does.
+/// Front (x to the right) and side (y to the right), z up, as View::plan shows them, and the top (y
+/// up) of a body that is less than half as high as it is long and wide; below them the caption, and
+/// what balls and colors mean. Throws as Painter::draw does.
 Canvas elevations(Painter& painter, const Snapshot& snapshot, const ElevationOptions& options);
 
 }  // namespace sinew

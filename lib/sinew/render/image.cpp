@@ -35,17 +35,37 @@ Image halved(const Image& image) {
 
 namespace {
 
-/// 0 .. 255, by the weights of Rec. 601 in sixteenths.
-int brightness(const std::uint8_t* pixel) {
-  return (5 * pixel[0] + 9 * pixel[1] + 2 * pixel[2]) / 16;
-}
+/// Brightness of a row's pixels, 0 .. 255, by the weights of Rec. 601 in sixteenths; the row
+/// continues beyond both ends.
+using Brightness = std::vector<std::uint8_t>;
 
-/// Finds the brightness in the row, which continues beyond both ends.
-void brightness_of_row(const Image& image, int row, std::vector<int>& values) {
+void brightness_of_row(const Image& image, int row, Brightness& values) {
   const std::uint8_t* pixel = image.at(0, std::clamp(row, 0, image.height - 1));
-  for (int x = 0; x < image.width; ++x) values[x + 1] = brightness(pixel + 3 * x);
+  for (int x = 0; x < image.width; ++x, pixel += 3)
+    values[x + 1] = static_cast<std::uint8_t>((5 * pixel[0] + 9 * pixel[1] + 2 * pixel[2]) / 16);
   values.front() = values[1];
   values.back() = values[image.width];
+}
+
+/// The brightness of a row and of those beside it.
+struct ThreeRows {
+  explicit ThreeRows(const Image& image) : above(image.width + 2), here(above), below(above) {}
+  Brightness above, here, below;
+};
+
+/// Difference between the brightest and the darkest of each pixel and its four neighbors.
+void contrast_of_row(const ThreeRows& rows, int width, Brightness& contrast) {
+  const std::uint8_t *above = rows.above.data(), *here = rows.here.data(),
+                     *below = rows.below.data();
+  for (int x = 0; x < width; ++x) {
+    const std::uint8_t low =
+        std::min(std::min(std::min(above[x + 1], below[x + 1]), std::min(here[x], here[x + 2])),
+                 here[x + 1]);
+    const std::uint8_t high =
+        std::max(std::max(std::max(above[x + 1], below[x + 1]), std::max(here[x], here[x + 2])),
+                 here[x + 1]);
+    contrast[x] = static_cast<std::uint8_t>(high - low);
+  }
 }
 
 /// Blends a pixel with its neighbors across the edge, by how much it sticks out of their mean.
@@ -75,19 +95,19 @@ Image with_smooth_edges(const Image& image) {
   constexpr int min_contrast = 16;
   Image smooth = image;
   parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t begin, std::size_t end) {
-    const auto padded = static_cast<std::size_t>(image.width) + 2;
-    std::vector<int> above(padded), here(padded), below(padded);
+    ThreeRows rows(image);
+    Brightness contrast(image.width);
+    brightness_of_row(image, static_cast<int>(begin) - 1, rows.here);
+    brightness_of_row(image, static_cast<int>(begin), rows.below);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      brightness_of_row(image, y - 1, above);
-      brightness_of_row(image, y, here);
-      brightness_of_row(image, y + 1, below);
-      for (int x = 0; x < image.width; ++x) {
-        const std::array<int, 4> around = {above[x + 1], below[x + 1], here[x], here[x + 2]};
-        const auto [low, high] =
-            std::minmax({around[0], around[1], around[2], around[3], here[x + 1]});
-        if (high - low >= min_contrast)
-          smooth_pixel(image, x, y, around, here[x + 1], smooth.at(x, y));
-      }
+      rows.above.swap(rows.here), rows.here.swap(rows.below);
+      brightness_of_row(image, y + 1, rows.below);
+      contrast_of_row(rows, image.width, contrast);
+      const auto& [above, here, below] = rows;
+      for (int x = 0; x < image.width; ++x)
+        if (contrast[x] >= min_contrast)
+          smooth_pixel(image, x, y, {above[x + 1], below[x + 1], here[x], here[x + 2]}, here[x + 1],
+                       smooth.at(x, y));
     }
   });
   return smooth;

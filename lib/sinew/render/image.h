@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include <sinew/render/color.h>
+#include <sinew/core/color.h>
 
 namespace sinew {
 

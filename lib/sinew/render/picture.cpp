@@ -156,10 +156,11 @@ struct Painter::Sizes {
   double grain;  ///< unit of shadows and bones: a particle's radius, m
   double line;   ///< width of the skin's edges, in rendered pixels
   bool shadows;
-  bool obstacles;  ///< stand before or behind the body
+  bool beside;  ///< more is drawn before, behind or around the body
+  Color bone;   ///< readable on the paper
 
   /// What is needed of the body's picture.
-  Readback body() const { return shadows || obstacles ? Readback::all : Readback::colors; }
+  Readback body() const { return shadows || beside ? Readback::all : Readback::colors; }
 };
 
 Painter::Painter(const Triangles& rest, ColorScale scale)
@@ -199,13 +200,14 @@ Exposure Painter::surface(const Snapshot& snapshot, const Sizes& sizes, bool bes
   add_cut(stage_.renderer(), snapshot, scale_, {1.4 * sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_net(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
-  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
+  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, sizes.bone);
   const double hollow = (beside_particles ? 2 : 5) * sizes.grain;
   Exposure picture = opaque(sizes, hollow);
-  const Snapshot held = marked(snapshot, Mark::held);
-  if (snapshot.bones.empty() && held.particles.empty()) return picture;
-  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, palette::bone);
-  add_particles(stage_.renderer(), held, scale_, stage_.view());
+  const bool holds =
+      std::find(snapshot.marks.begin(), snapshot.marks.end(), Mark::held) != snapshot.marks.end();
+  if (snapshot.bones.empty() && !holds) return picture;
+  add_bones(stage_.renderer(), snapshot, 1.6 * sizes.grain, sizes.bone);
+  add_held_dots(stage_.renderer(), snapshot, stage_.view());
   shine_through(picture.image, stage_.render(), 0.6F);
   return picture;
 }
@@ -215,13 +217,12 @@ Exposure Painter::pale_skin(const Snapshot& snapshot, const Sizes& sizes) {
   add_creases(stage_.renderer(), snapshot, skin_, {sizes.line, 0.6 * sizes.pixel, sizes.pixel});
   Exposure picture = shaded(Readback::all, sizes, 5 * sizes.grain);
   pale(picture);
-  picture.coverage = {};
   return picture;
 }
 
 void Painter::add_binding(const Snapshot& snapshot, const Sizes& sizes) {
   vtkRenderer& renderer = stage_.renderer();
-  add_bare_bones(renderer, snapshot, 1.2 * sizes.grain, palette::bone);
+  add_bare_bones(renderer, snapshot, 1.2 * sizes.grain, sizes.bone);
   add_references(renderer, snapshot, 0.6 * sizes.grain);
   add_particles(renderer, snapshot, scale_, stage_.view());
   add_lines(renderer, snapshot, scale_, 1.5 * sizes.line);
@@ -233,6 +234,18 @@ void Painter::tint_muscles(Exposure& picture, const Snapshot& snapshot) {
   if (muscles.particles.empty()) return;
   add_particles(stage_.renderer(), muscles, scale_, stage_.view());
   shine_through(picture.image, stage_.render(), 0.4F);
+}
+
+/// The skin of what a view has left out, pale, where the picture is empty: it changes no color.
+void Painter::put_left_out(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes) {
+  if (!snapshot.opened) return;
+  Snapshot skin;
+  skin.surface = snapshot.surface;
+  skin.radius = snapshot.radius;
+  Exposure around = pale_skin(skin, sizes);
+  for (std::size_t i = 0; i < around.coverage.size(); ++i)
+    if (std::isfinite(picture.depth.depth[i])) around.coverage[i] = 0;
+  shine_through(picture.image, around, 0.55F);
 }
 
 /// Seen through the obstacles, where they are in front.
@@ -273,9 +286,9 @@ void Painter::put_traces(Exposure& picture, const Snapshot& snapshot, const Size
 }
 
 /// Nothing hides them either.
-void Painter::put_forces(Exposure& picture, const Snapshot& snapshot) {
+void Painter::put_forces(Exposure& picture, const Snapshot& snapshot, const Paper& paper) {
   if (snapshot.forces.empty()) return;
-  add_forces(stage_.renderer(), snapshot);
+  add_forces(stage_.renderer(), snapshot, paper);
   shine_through(picture.image, stage_.render(), 1);
 }
 
@@ -288,15 +301,20 @@ Image Painter::draw(const Snapshot& snapshot, const PictureOptions& options) {
 }
 
 Exposure Painter::body(const Snapshot& snapshot, const Sizes& sizes, View view) {
-  if (view == View::surface || view == View::halves || view == View::cut)
-    return surface(snapshot, sizes, view == View::halves);
-  if (view == View::particles || view == View::both)
-    return particles(snapshot, sizes, view == View::both);
+  const bool of_skin = view == View::surface || view == View::halves || view == View::cut;
+  if (shows_particles_or_skin(view)) {
+    Exposure picture = of_skin ? surface(snapshot, sizes, view != View::surface)
+                               : particles(snapshot, sizes, view == View::both);
+    put_left_out(picture, snapshot, sizes);
+    return picture;
+  }
 
   Exposure picture = pale_skin(snapshot, sizes);
+  picture.coverage = {};
+  put_left_out(picture, snapshot, sizes);
   if (view == View::plan) tint_muscles(picture, snapshot);
   if (view == View::plan || view == View::bones)
-    add_bones(stage_.renderer(), snapshot, 2.2 * sizes.grain, palette::bone);
+    add_bones(stage_.renderer(), snapshot, 2.2 * sizes.grain, sizes.bone);
   if (view == View::binding) add_binding(snapshot, sizes);
   if (view == View::arrows) add_arrows(stage_.renderer(), snapshot, scale_);
   if (view == View::lines) add_lines(stage_.renderer(), snapshot, scale_, sizes.line);
@@ -317,13 +335,17 @@ Image Painter::drawn(const Snapshot& snapshot, const PictureOptions& options) {
               options.paper.background, snapshot.radius, options.tile});
   constexpr double min_grain = 4;  // pixels: thinner bones would not be seen in a plan
   const bool fine = options.finish == Finish::fine;
-  Sizes sizes{pixel, snapshot.radius > 0 ? snapshot.radius : 8 * pixel, fine ? 2.4 : 1.4, fine,
-              !snapshot.obstacles.faces.empty()};
+  Sizes sizes{pixel,
+              snapshot.radius > 0 ? snapshot.radius : 8 * pixel,
+              fine ? 2.4 : 1.4,
+              fine,
+              snapshot.opened || !snapshot.obstacles.faces.empty(),
+              readable_on(options.paper.background, palette::bone)};
   if (options.view == View::plan) sizes.grain = std::max(sizes.grain, min_grain * pixel);
   Exposure picture = body(snapshot, sizes, options.view);
   put_obstacles(picture, snapshot, sizes);
   put_traces(picture, snapshot, sizes);
-  put_forces(picture, snapshot);
+  put_forces(picture, snapshot, options.paper);
   write_labels(picture.image, snapshot, options, pixel);
   return std::move(picture.image);
 }

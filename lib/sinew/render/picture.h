@@ -14,15 +14,16 @@ enum class View {
   surface,    ///< the skin, colored by its values if it has some, the bones visible through it
   particles,  ///< spheres of their true size, colored by their values
   halves,     ///< a part of the skin, and beside it the particles, with the bones through both
-  cut,        ///< the skin of one side of the snapshot's cut, and the cut, colored by its values
-  both,       ///< the particles inside the wireframe of the skin, and the bones
-  arrows,     ///< the snapshot's arrows inside a pale skin
-  lines,      ///< the snapshot's lines inside a pale skin
-  curves,     ///< the snapshot's curves inside a pale skin
-  bones,      ///< the bones and their axes inside a pale skin
-  binding,    ///< the bones, the particles with the lines to their reference points and the arrows
-              ///< of their forces inside a pale skin
-  plan,       ///< the bones and marked particles inside a pale skin, muscles as a red tint
+  cut,      ///< the skin of one side of the snapshot's cut, the cut, colored by its values, and the
+            ///< particles behind it, where its cells are torn
+  both,     ///< the particles inside the wireframe of the skin, and the bones
+  arrows,   ///< the snapshot's arrows inside a pale skin
+  lines,    ///< the snapshot's lines inside a pale skin
+  curves,   ///< the snapshot's curves inside a pale skin
+  bones,    ///< the bones and their axes inside a pale skin
+  binding,  ///< the bones, the particles with the lines to their reference points and the arrows
+            ///< of their forces inside a pale skin
+  plan,     ///< the bones and marked particles inside a pale skin, muscles as a red tint
 };
 
 /// Whether the colors of this view of a snapshot show values.
@@ -31,6 +32,12 @@ inline bool shows_values(View view, const Snapshot& snapshot) {
          view == View::both || view == View::arrows || view == View::lines ||
          view == View::curves || view == View::binding ||
          (view == View::surface && !snapshot.skin_values.empty());
+}
+
+/// Whether this view shows the body itself, with dots on held particles, not what is within it.
+inline bool shows_particles_or_skin(View view) {
+  return view == View::surface || view == View::halves || view == View::cut ||
+         view == View::particles || view == View::both;
 }
 
 /// Whether this view shows the axes of bones.
@@ -77,8 +84,9 @@ class Painter {
   Exposure pale_skin(const Snapshot& snapshot, const Sizes& sizes);
   void add_binding(const Snapshot& snapshot, const Sizes& sizes);
   void tint_muscles(Exposure& picture, const Snapshot& snapshot);
+  void put_left_out(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
   void put_traces(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
-  void put_forces(Exposure& picture, const Snapshot& snapshot);
+  void put_forces(Exposure& picture, const Snapshot& snapshot, const Paper& paper);
   void throw_shadow(Exposure& ground, const Snapshot& snapshot) const;
   void put_obstacles(Exposure& picture, const Snapshot& snapshot, const Sizes& sizes);
 

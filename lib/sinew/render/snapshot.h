@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <sinew/core/color.h>
 #include <sinew/core/triangles.h>
 #include <sinew/core/vector.h>
-#include <sinew/render/color.h>
 
 namespace sinew {
 
@@ -61,7 +61,7 @@ struct SnapshotTrace {
 /// What a particle is, beside its value.
 enum class Mark : std::uint8_t {
   none,
-  held,    ///< in place, on a bone or by a support, drawn dark
+  held,    ///< in place, on a bone or by a support, drawn dark, or with a dark dot
   loaded,  ///< pushed by a force or a pressure, drawn violet
   muscle,  ///< drawn red
   sample,  ///< shown for its size
@@ -78,6 +78,7 @@ struct Snapshot {
   std::vector<double> skin_values;  ///< one per point of the surface, in color; empty: none
   /// One per point of the surface: only where they are negative it is drawn; empty: all of it.
   std::vector<double> skin_sides;
+  bool opened = false;  ///< a part is left out: the skin stays, pale, where nothing else is seen
   std::vector<SnapshotBone> bones;
   std::vector<SnapshotArrow> arrows;
   std::vector<SnapshotLine> lines;

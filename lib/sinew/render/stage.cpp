@@ -161,11 +161,14 @@ Image Stage::Impl::pixels(const Tile& drawn, const Tile& used) const {
   Image image(times * used.width, times * used.height);
   const int left = times * (used.x - drawn.x),
             low = times * (drawn.y + drawn.height - used.y - used.height);
-  vtkNew<vtkUnsignedCharArray> rgb;
-  window->GetPixelData(left, low, left + image.width - 1, low + image.height - 1, 0, rgb);
-  for (int y = 0; y < image.height; ++y)  // VTK counts rows from below
-    std::copy_n(rgb->GetPointer(3 * static_cast<vtkIdType>(image.height - 1 - y) * image.width),
-                3 * image.width, image.at(0, y));
+  vtkNew<vtkUnsignedCharArray> rgba;  // layout of the frame: repacking to three bytes is slow
+  window->GetRGBACharPixelData(left, low, left + image.width - 1, low + image.height - 1, 0, rgba);
+  for (int y = 0; y < image.height; ++y) {  // VTK counts rows from below
+    const std::uint8_t* from =
+        rgba->GetPointer(4 * static_cast<vtkIdType>(image.height - 1 - y) * image.width);
+    std::uint8_t* to = image.at(0, y);
+    for (int x = 0; x < image.width; ++x, from += 4, to += 3) std::copy_n(from, 3, to);
+  }
   return times == 2 ? halved(image) : image;
 }
 
@@ -193,6 +196,7 @@ void Stage::Impl::measure(const Tile& drawn, const Tile& used, Exposure& exposur
 Stage::Stage() : impl_(std::make_unique<Impl>()) {
   impl_->window->SetOffScreenRendering(1);
   impl_->window->SetMultiSamples(0);
+  impl_->window->SwapBuffersOff();  // the picture is read from the frame that was drawn
   impl_->window->AddRenderer(impl_->renderer);
   if (!impl_->window->SupportsOpenGL())
     throw Error(Exit::not_written,

@@ -28,9 +28,12 @@ PolygonSoup read_gltf_look_file(const std::string& path, PolygonLook& look) {
 }
 
 /// In addition to those of the room mesh, which does not depend on io.
-constexpr std::array<MeshFormat, 6> formats_of_io = {
+constexpr std::array<MeshFormat, 9> formats_of_io = {
     {{"glTF", ".gltf", read_gltf_file, nullptr, read_gltf_look_file},
      {"GLB", ".glb", read_gltf_file, nullptr, read_gltf_look_file},
+     {"VRM", ".vrm", read_gltf_file, nullptr, read_gltf_look_file},
+     {"FBX", ".fbx", read_gltf_file, nullptr, read_gltf_look_file},
+     {"COLLADA", ".dae", read_gltf_file, nullptr, read_gltf_look_file},
      {"VTP", ".vtp", read_vtk_file},
      {"VTU", ".vtu", read_vtk_file},
      {"VTK", ".vtk", read_vtk_file},

@@ -16,7 +16,8 @@
 
 namespace sinew {
 
-/// The formats, as help texts list them: "OBJ, OFF, STL, PLY, glTF, GLB, VTP, VTU, VTK, VTI".
+/// The formats, as help texts list them: "OBJ, OFF, STL, PLY, glTF, GLB, VRM, FBX, COLLADA, VTP,
+/// VTU, VTK, VTI".
 std::string mesh_formats();
 
 /// Whether a path names a mesh, by its extension.

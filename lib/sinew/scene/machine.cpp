@@ -91,18 +91,44 @@ Load load_of(const LoadSettings& given, const std::string& path, const Body& bod
   return load;
 }
 
-Probe point_probe(const Settings& settings, std::size_t index, const Body& body) {
+/// Throws bad input for a point that is outside of all particles: `key` of entry `path`.
+void refuse_far(const Vec3& at, const std::string& what, const std::string& key, const Body& body,
+                const Settings& settings) {
   constexpr double farthest = 4;  // radii: corners of coarse bodies are outside of all particles
-  const ProbeSettings& given = settings.probes[index];
-  const double radius = body.material.pair.r;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Vec3& place : body.rest) nearest = std::min(nearest, (place - *given.at).norm());
-  if (nearest > farthest * radius)
-    throw bad_input(settings.place(path_of_one("probes", index) + ".at"),
-                    "probe '" + given.name + "' is " + three_digits(nearest) +
-                        " m away from the nearest particle",
+  for (const Vec3& place : body.rest) nearest = std::min(nearest, (place - at).norm());
+  if (nearest > farthest * body.material.pair.r)
+    throw bad_input(settings.place(key),
+                    what + " is " + three_digits(nearest) + " m away from the nearest particle",
                     "give a point of the body at rest, " + extent_text(body.rest));
-  FollowingPoints point = following({*given.at}, body.rest, radius);
+}
+
+Load spring_of(const Settings& settings, std::size_t index, const Body& body) {
+  const SpringSettings& given = settings.world.springs[index];
+  const std::string path = path_of_one("world.springs", index),
+                    what = "spring '" + given.name + '\'';
+  const std::size_t count = body.rest.size();
+  if (given.particle && static_cast<std::size_t>(*given.particle) >= count)
+    throw bad_input(settings.place(path + ".particle"),
+                    "there is no particle " + std::to_string(*given.particle),
+                    "give an id from 0 to " + std::to_string(count - 1));
+  if (given.at) refuse_far(*given.at, what, path + ".at", body, settings);
+  Load load = given.at ? spring_load(given.name, *given.at, given.stiffness, body.rest,
+                                     body.material.pair.r)
+                       : spring_load(given.name, static_cast<std::uint32_t>(*given.particle),
+                                     given.stiffness, body.rest);
+  for (const SpringKeySettings& key : given.keys) {
+    load.scale.times.push_back(key.time), load.scale.values.push_back(key.factor);
+    load.free_end.times.push_back(key.time), load.free_end.places.push_back(key.to);
+  }
+  return load;
+}
+
+Probe point_probe(const Settings& settings, std::size_t index, const Body& body) {
+  const ProbeSettings& given = settings.probes[index];
+  refuse_far(*given.at, "probe '" + given.name + '\'', path_of_one("probes", index) + ".at", body,
+             settings);
+  FollowingPoints point = following({*given.at}, body.rest, body.material.pair.r);
   return {given.name, std::move(point.particle), std::move(point.weight), true};
 }
 
@@ -127,6 +153,8 @@ void add_machine(const Settings& settings, const Body& body, const ParticleParts
       refuse_too_many("loads", world.loads, body.rest.size());
     });
   }
+  for (std::size_t k = 0; k < settings.world.springs.size(); ++k)
+    world.loads.push_back(spring_of(settings, k, body));
 }
 
 std::vector<Probe> probes_of(const Settings& settings, const Body& body,

@@ -8,6 +8,7 @@
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
+#include <sinew/io/gltf/geometry.h>
 #include <sinew/repair/read_surface.h>
 #include <sinew/rig/motion.h>
 #include <sinew/scene/body_mesh.h>
@@ -32,11 +33,11 @@ namespace {
 /// The weights of the mesh in skeleton.file, in the scene's directions and lengths.
 BoneWeights weights_of_file(const Settings& settings, const SkinnedRig& rig, const Points& rest) {
   const std::filesystem::path file = settings.skeleton.file;
-  const std::string type = lower(file.extension().string());
   const Place place = settings.place("binding.method");
-  if (type != ".gltf" && type != ".glb")
-    throw bad_input(place, "there is no glTF file to take weights from",
-                    "name a .gltf or .glb with a skinned mesh in skeleton.file, or choose inside");
+  if (!is_gltf(file))
+    throw bad_input(
+        place, "there is no glTF file to take weights from",
+        "name a .gltf, .glb or .vrm with a skinned mesh in skeleton.file, or choose inside");
   if (rig.weights.weights.empty())
     throw bad_input(place, file.filename().string() + " holds no skinned mesh, so no weights",
                     "choose nearest or inside");

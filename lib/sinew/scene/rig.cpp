@@ -46,7 +46,7 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
     tracks.push_back(std::move(track));
   }
   if (tracks.empty() && !motion.tracks.empty()) {
-    std::string cure("name a bone of the skeleton as the clip does: ");
+    std::string cure("write them in motion.names, as sinew new MESH CLIP does; the clip has ");
     cure += from.bones.front().name;
     if (from.size() > 1) (cure += ", ") += from.bones[1].name;
     throw bad_input("no bone of the clip has the name of a bone of the skeleton", cure);
@@ -72,8 +72,18 @@ Motion clip_motion(const Rig& rig, const Skeleton& skeleton, const Settings& set
 /// The clip that gives the rest pose: the one that plays, or the first of the skeleton's file where
 /// another file's plays.
 const Clip& clip_at_rest(const Rig& rig, const Settings& settings) {
-  if (settings.motion.file.empty() || rig.clips.empty()) return clip_of(rig, settings);
+  const std::string& file = settings.motion.file;
+  if (file.empty() || is_key_table(file) || rig.clips.empty()) return clip_of(rig, settings);
   return rig.clips.front();
+}
+
+/// Keys in the scene's directions and lengths.
+Motion keyed_motion(const Settings& settings, const std::vector<TrackDefinition>& keys,
+                    const Skeleton& skeleton) {
+  return with_context(settings, "motion.file", [&] {
+    return at_keys(settings, "motion.",
+                   [&] { return played(make_motion(keys, skeleton), settings.motion); });
+  });
 }
 
 /// Another file's clip for a skeleton that rests in a pose of its own clip.
@@ -141,7 +151,9 @@ SceneRig rig_of(const Settings& settings, const SceneFiles& files) {
   const auto moved_by = [&](const char* key, const Rig& rig) {
     return with_context(settings, key, [&] { return clip_motion(rig, scene.skeleton, settings); });
   };
-  if (!own_clip)
+  if (is_key_table(settings.motion.file))
+    scene.motion = keyed_motion(settings, files.keys, scene.skeleton);
+  else if (!own_clip)
     scene.motion =
         moved_by("motion.file", settings.skeleton.rest_at
                                     ? moved_from_rest(settings, files.skeleton.rig, files.motion)

@@ -4,9 +4,13 @@
 #include <utility>
 
 #include <sinew/core/error.h>
+#include <sinew/core/file.h>
 #include <sinew/core/text.h>
+#include <sinew/io/gltf/geometry.h>
 #include <sinew/io/gltf/rig.h>
 #include <sinew/rig/bvh/bvh.h>
+#include <sinew/rig/key_table.h>
+#include <sinew/rig/retarget.h>
 #include <sinew/scene/body_mesh.h>
 #include <sinew/scene/context.h>
 
@@ -15,11 +19,6 @@ namespace {
 
 bool is_bvh(const std::filesystem::path& path) {
   return lower(path.extension().string()) == ".bvh";
-}
-
-bool is_gltf(const std::filesystem::path& path) {
-  const std::string type = lower(path.extension().string());
-  return type == ".gltf" || type == ".glb";
 }
 
 /// In the file's own directions and units: placed() rotates and scales it afterwards.
@@ -39,6 +38,37 @@ SkinnedRig read_if_named(const Settings& settings, const char* key, const std::s
   return with_context(settings, key, [&] { return read_rig(path, settings.motion); });
 }
 
+/// The clips for the bones of a skeleton, by the scene's table of names.
+Rig renamed(Rig rig, const Skeleton& skeleton, const Settings& settings) {
+  Rig own{skeleton, {}, std::move(rig.warnings)};
+  for (const Clip& clip : rig.clips) {
+    if (!settings.motion.clip.empty() && clip.name != settings.motion.clip) continue;
+    Retargeted made = retargeted(rig.skeleton, clip, skeleton, settings.motion.names);
+    if (own.clips.empty())
+      own.warnings.insert(own.warnings.end(), made.warnings.begin(), made.warnings.end());
+    own.clips.push_back(clip);
+    own.clips.back().motion = std::move(made.motion);
+  }
+  if (own.clips.empty() && !rig.clips.empty()) find_clip(rig.clips, settings.motion.clip);
+  return own;
+}
+
+/// Clips of glTF files move the nodes of a glTF skeleton, others its bones.
+Rig read_motion(const Settings& settings, const Skeleton& of_file) {
+  const std::string &skeleton = settings.skeleton.file, &motion = settings.motion.file;
+  if (is_key_table(motion)) return {};
+  if (!motion.empty() && !settings.motion.names.empty()) {
+    Rig rig = read_if_named(settings, "motion.file", motion).rig;
+    return at_keys(settings, "motion.", [&] {
+      return renamed(std::move(rig), skeleton.empty() ? make_skeleton(settings.bones) : of_file,
+                     settings);
+    });
+  }
+  if (motion.empty() || motion == skeleton || !is_gltf(motion) || !is_gltf(skeleton))
+    return read_if_named(settings, "motion.file", motion).rig;
+  return with_context(settings, "motion.file", [&] { return read_gltf_clips(skeleton, motion); });
+}
+
 /// Nothing for an obstacle of another shape.
 Surface read_obstacle(const Settings& settings, std::size_t index) {
   const ObstacleSettings& obstacle = settings.world.obstacles[index];
@@ -54,10 +84,16 @@ Surface read_obstacle(const Settings& settings, std::size_t index) {
 }  // namespace
 
 bool holds_rig(const std::filesystem::path& path) {
-  return is_bvh(path) || (is_gltf(path) && has_skin(path));
+  return is_bvh(path) || (is_gltf(path) && has_gltf_rig(path));
 }
 
-bool holds_mesh(const std::filesystem::path& path) { return !is_bvh(path); }
+bool holds_mesh(const std::filesystem::path& path) {
+  return !is_bvh(path) && !(is_gltf(path) && gltf_mesh_names(path).empty() && has_gltf_rig(path));
+}
+
+bool is_key_table(const std::filesystem::path& path) {
+  return lower(path.extension().string()) == ".csv";
+}
 
 bool is_scene(const std::filesystem::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
@@ -102,7 +138,12 @@ SkinnedRig read_rig(const std::filesystem::path& path, const MotionOptions& moti
 SceneFiles read_rig_files(const Settings& settings) {
   SceneFiles files;
   files.skeleton = read_if_named(settings, "skeleton.file", settings.skeleton.file);
-  files.motion = read_if_named(settings, "motion.file", settings.motion.file).rig;
+  files.motion = read_motion(settings, files.skeleton.rig.skeleton);
+  if (const std::string& keys = settings.motion.file; is_key_table(keys))
+    files.keys = with_context(settings, "motion.file", [&] {
+      constexpr std::uint64_t largest = 1 << 30;  // bytes, hours of many bones
+      return tracks_of_keys(read_file(keys, largest), keys);
+    });
   return files;
 }
 

@@ -19,11 +19,15 @@
 namespace sinew {
 
 /// File names of rigs and clips that are not YAML, as help texts list them.
-inline constexpr const char* rig_formats = "BVH, glTF, GLB";
+inline constexpr const char* rig_formats = "BVH, glTF, GLB, VRM, FBX, COLLADA";
 
-/// Whether a file that is not YAML has a rig, and whether it may have a mesh: glTF may have both.
+/// Whether a file that is not YAML has a rig, and whether it may have a mesh: glTF may have both,
+/// or one of them.
 bool holds_rig(const std::filesystem::path& path);
 bool holds_mesh(const std::filesystem::path& path);
+
+/// Whether a path names a table of keys (rig/key_table.h).
+bool is_key_table(const std::filesystem::path& path);
 
 /// Whether a path names a scene (by .yaml or .yml) rather than a mesh.
 bool is_scene(const std::filesystem::path& path);
@@ -44,10 +48,11 @@ SkinnedRig read_rig(const std::filesystem::path& path, const MotionOptions& moti
 
 /// Empty where the scene names none.
 struct SceneFiles {
-  SkinnedRig skeleton;             ///< rig of skeleton.file
-  Rig motion;                      ///< rig of motion.file
-  std::vector<Surface> obstacles;  ///< meshes of world.obstacles; empty for other shapes
-  Triangles surface;               ///< surface of the body; read_files() has none
+  SkinnedRig skeleton;                     ///< rig of skeleton.file
+  Rig motion;                              ///< rig of motion.file
+  std::vector<TrackDefinition> keys = {};  ///< keys of motion.file, where it is a table of them
+  std::vector<Surface> obstacles;          ///< meshes of world.obstacles; empty for other shapes
+  Triangles surface;                       ///< surface of the body; read_files() has none
 };
 
 /// Throws bad input, with the scene's line, for files that cannot be read.

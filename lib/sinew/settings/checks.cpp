@@ -247,6 +247,7 @@ Features features_of(const Settings& scene) {
       {muscles, !world.muscles.empty()},
       {supports_along, any_has(scene.supports, &SupportSettings::hold_along)},
       {pressures, any_has(scene.loads, &LoadSettings::pressure)},
+      {springs, !world.springs.empty()},
   });
   all.merge(features_of_material(scene));
   return all;

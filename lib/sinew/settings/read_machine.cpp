@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+
 #include <sinew/settings/detail/entries.h>
 #include <sinew/settings/sections.h>
 #include <sinew/settings/text_file.h>
@@ -77,20 +79,6 @@ void read_material(const YamlNode& item, const std::string& path, LocalMaterialS
                     "give young_modulus, poisson_ratio, density, breaking_strain or yield_strain");
 }
 
-/// Both share the rows of supports.csv.
-void check_names_of_machine(const Settings& settings) {
-  check_names(settings.materials, "", "materials", settings);
-  check_names(settings.supports, "", "supports", settings);
-  check_names(settings.loads, "", "loads", settings);
-  check_names(settings.probes, "", "probes", settings);
-  for (std::size_t i = 0; i < settings.loads.size(); ++i)
-    for (const SupportSettings& support : settings.supports)
-      if (support.name == settings.loads[i].name)
-        throw bad_input(settings.place(path_of_entry("", "loads", i) + ".name"),
-                        "a support and a load are both named '" + support.name + '\'',
-                        "give each a name of its own");
-}
-
 }  // namespace
 
 void read_machine(const YamlNode& scene, Settings& settings) {
@@ -103,7 +91,24 @@ void read_machine(const YamlNode& scene, Settings& settings) {
   read_entries(scene, "", "supports", settings.supports, settings.places, with(read_support));
   read_entries(scene, "", "loads", settings.loads, settings.places, with(read_load));
   read_entries(scene, "", "probes", settings.probes, settings.places, with(read_probe));
-  check_names_of_machine(settings);
+}
+
+void check_names_of_machine(const Settings& settings) {
+  check_names(settings.materials, "", "materials", settings);
+  check_names(settings.supports, "", "supports", settings);
+  check_names(settings.loads, "", "loads", settings);
+  check_names(settings.probes, "", "probes", settings);
+  std::set<std::string> taken;
+  for (const SupportSettings& support : settings.supports) taken.insert(support.name);
+  const auto take = [&](const auto& list, const std::string& path, const char* name) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!taken.insert(list[i].name).second)
+        throw bad_input(settings.place(path_of_entry(path, name, i) + ".name"),
+                        "two of supports, loads and springs are named '" + list[i].name + '\'',
+                        "give each a name of its own");
+  };
+  take(settings.loads, "", "loads");
+  take(settings.world.springs, "world", "springs");
 }
 
 std::string machine_text(const Settings& settings, const std::filesystem::path& folder) {

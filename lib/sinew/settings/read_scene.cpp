@@ -15,37 +15,6 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// The value of `key`, added to the mapping when missing.
-YamlNode& child(YamlNode& map, const std::string& key, const Place& place) {
-  for (std::size_t i = 0; i < map.keys.size(); ++i)
-    if (map.keys[i].name == key) return map.items[i];
-  map.keys.push_back({key, place});
-  map.items.push_back({Kind::empty, false, place, "", {}, {}});
-  return map.items.back();
-}
-
-void remove(YamlNode& scene, std::string_view path) {
-  const auto dot = path.find('.');
-  for (std::size_t s = 0; s < scene.keys.size(); ++s) {
-    if (scene.keys[s].name != path.substr(0, dot)) continue;
-    YamlNode& section = scene.items[s];
-    for (std::size_t i = section.keys.size(); i-- > 0;) {
-      if (section.keys[i].name != path.substr(dot + 1)) continue;
-      section.keys.erase(section.keys.begin() + static_cast<std::ptrdiff_t>(i));
-      section.items.erase(section.items.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-  }
-}
-
-/// Whether the text unsets its key, as in body.count=auto; all paired keys use this word.
-bool is_absent_word(const YamlNode& value) { return !value.quoted && value.text == "auto"; }
-
-void place_all(YamlNode& node, const Place& place) {
-  node.place = place;
-  for (YamlKey& key : node.keys) key.place = place;
-  for (YamlNode& item : node.items) place_all(item, place);
-}
-
 /// A key that has a new name; scenes may use the old one.
 struct RenamedKey {
   std::string_view section, before, now;
@@ -56,6 +25,13 @@ std::string warning_of(const Place& place, const RenamedKey& key) {
   const std::string section = std::string(key.section) + '.';
   return place.text() + ": " + section + std::string(key.before) + " is now called " + section +
          std::string(key.now) + "; write that, since the old name may go";
+}
+
+/// How the key of a path was renamed, or nullptr.
+const RenamedKey* renamed(const std::string& path) {
+  for (const RenamedKey& key : renamed_keys)
+    if (path == std::string(key.section) + '.' + std::string(key.before)) return &key;
+  return nullptr;
 }
 
 /// Gives the keys of a scene their new names.
@@ -79,36 +55,7 @@ void rename_keys(YamlNode& scene, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-Override parse_override(const std::string& text) {
-  const auto equals = text.find('=');
-  const std::string path = text.substr(0, equals);
-  const auto dot = path.find('.');
-  if (equals == text.npos || dot == path.npos || dot == 0 || dot + 1 == path.size())
-    throw bad_input("--set " + shown(text) + " is no setting",
-                    "write --set section.key=value, as in --set body.radius=0.01");
-  return {path, text.substr(equals + 1), "--set " + text};
-}
-
-void apply_override(const Override& given, YamlNode& scene) {
-  const Place place = {given.given};
-  YamlNode value = parse_yaml(given.value, place.file);
-  place_all(value, place);
-  if (scene.kind != Kind::map) return;
-  const auto dot = given.path.find('.');
-  YamlNode& section = child(scene, given.path.substr(0, dot), place);
-  if (section.kind == Kind::empty) section.kind = Kind::map;
-  if (section.kind == Kind::list)
-    throw bad_input(place,
-                    "'" + given.path.substr(0, dot) + "' is a list, whose entries cannot be set",
-                    "edit them in the scene");
-  if (section.kind != Kind::map) return;
-  if (!is_absent_word(value)) remove(scene, rival_of(given.path));
-  child(section, given.path.substr(dot + 1), place) = std::move(value);
-}
-
 namespace {
-
-using Kind = YamlNode::Kind;
 
 std::vector<Field<Settings>> rows_of(std::string_view section) {
   std::vector<Field<Settings>> rows;
@@ -182,10 +129,16 @@ Settings read_settings(const YamlNode& scene, const std::string& file,
     if (name == "world") read_world(section, settings);
     if (name == "binding") read_bound(section, settings);
   }
+  check_names_of_machine(settings);
   return settings;
 }
 
 }  // namespace
+
+std::string present_path(const std::string& path) {
+  const RenamedKey* key = renamed(path);
+  return key != nullptr ? std::string(key->section) + '.' + std::string(key->now) : path;
+}
 
 Settings scene_from_text(const std::string& text, const std::string& name,
                          const std::filesystem::path& folder, std::span<const Override> overrides) {
@@ -193,11 +146,9 @@ Settings scene_from_text(const std::string& text, const std::string& name,
   std::vector<std::string> warnings;
   rename_keys(scene, warnings);
   for (Override given : overrides) {
-    for (const RenamedKey& key : renamed_keys) {
-      const std::string section = std::string(key.section) + '.';
-      if (given.path != section + std::string(key.before)) continue;
-      warnings.push_back(warning_of({given.given}, key));
-      given.path = section + std::string(key.now);
+    if (const RenamedKey* key = renamed(given.path)) {
+      warnings.push_back(warning_of({given.given}, *key));
+      given.path = present_path(given.path);
     }
     apply_override(given, scene);
   }

@@ -12,24 +12,14 @@
 #include <string>
 
 #include <sinew/core/capabilities.h>
+#include <sinew/settings/override.h>
 #include <sinew/settings/settings.h>
 #include <sinew/settings/yaml_tree.h>
 
 namespace sinew {
 
-struct Override {
-  std::string path;   ///< section.key
-  std::string value;  ///< YAML: a word, a number, [x, y, z]
-  std::string given;  ///< text on the command line: errors quote it
-};
-
-/// Splits "section.key=value". Throws bad input for another form.
-Override parse_override(const std::string& text);
-
-/// Sets the value in the tree of a scene and removes the other key of a pair (body.radius for
-/// body.count). A tree that is no mapping of mappings is unchanged: its reader reports what is
-/// wrong. Throws bad input, as "--set KEY=VALUE: ...", for invalid YAML.
-void apply_override(const Override& given, YamlNode& scene);
+/// The name that the setting of a path has, which may have had another one before.
+std::string present_path(const std::string& path);
 
 /// Reads and checks a scene. An override replaces the scene's own value and removes the other key
 /// of a pair (body.radius for body.count); of two overrides for one key the last applies. Paths are

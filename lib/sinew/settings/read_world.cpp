@@ -110,6 +110,19 @@ void read_muscle(const YamlNode& item, const std::string& path, MuscleSettings& 
                     "give [x, y, z], not all zero");
 }
 
+void read_spring(const YamlNode& item, const std::string& path, SpringSettings& spring,
+                 Settings& settings) {
+  read_fields(item, path, spring_fields(), "keys", spring, settings.places);
+  read_keys(item, path, spring_key_fields(), spring.keys, settings);
+  if (spring.at.has_value() == spring.particle.has_value())
+    throw bad_input(settings.place(path),
+                    path + " has " + (spring.at ? "a point and a particle" : "no point"),
+                    "give at: [x, y, z] of the body at rest, or particle: ID");
+  if (spring.keys.empty())
+    throw bad_input(settings.place(path), path + " has no free end",
+                    "add keys, as in keys: [{time: 0, to: [0, 0, 1]}]");
+}
+
 }  // namespace
 
 void check_axes_of_keys(const std::vector<PlaceKeySettings>& keys, const std::string& path,
@@ -147,9 +160,11 @@ void read_world(const YamlNode& node, Settings& settings) {
   read_entries(node, "world", "pins", world.pins, places, with(read_pin));
   read_entries(node, "world", "fields", world.fields, places, with(read_field));
   read_entries(node, "world", "muscles", world.muscles, places, with(read_muscle));
+  read_entries(node, "world", "springs", world.springs, places, with(read_spring));
   check_names(world.obstacles, "world", "obstacles", settings);
   check_names(world.fields, "world", "fields", settings);
   check_names(world.muscles, "world", "muscles", settings);
+  check_names(world.springs, "world", "springs", settings);
 }
 
 std::string world_text(const Settings& settings, const std::filesystem::path& folder) {
@@ -170,6 +185,10 @@ std::string world_text(const Settings& settings, const std::filesystem::path& fo
   text += list_text("muscles", world.muscles, 2, [](const MuscleSettings& muscle, bool first) {
     return entry_text(muscle_fields(), muscle, 4, first) +
            keys_text(activation_fields(), muscle, 4, first);
+  });
+  text += list_text("springs", world.springs, 2, [](const SpringSettings& spring, bool first) {
+    return entry_text(spring_fields(), spring, 4, first) +
+           keys_text(spring_key_fields(), spring, 4, first);
   });
   return text;
 }

@@ -39,8 +39,8 @@ std::optional<Settings> read_rig_alone(const std::filesystem::path& path);
 // keys.
 
 /// The names of its lists.
-inline constexpr std::array<std::string_view, 4> world_lists = {"obstacles", "pins", "fields",
-                                                                "muscles"};
+inline constexpr std::array<std::string_view, 5> world_lists = {"obstacles", "pins", "fields",
+                                                                "muscles", "springs"};
 
 /// Reads the lists, all of which are optional. Throws bad input, with the scene's line, as
 /// read_fields() does, and for what is incomplete or contradictory: a shape without its sizes, a
@@ -61,6 +61,9 @@ inline constexpr std::array<std::string_view, 4> machine_lists = {"materials", "
 /// read_world() does, for a support that begins elsewhere than at rest, and for a load of no kind
 /// or of several.
 void read_machine(const YamlNode& scene, Settings& settings);
+/// Throws bad input for two entries of one name; supports, loads and springs, whose rows are in one
+/// table, count as one list.
+void check_names_of_machine(const Settings& settings);
 
 /// The lists that have entries, as a scene writes them.
 std::string machine_text(const Settings& settings, const std::filesystem::path& folder);

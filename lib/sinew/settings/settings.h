@@ -89,16 +89,32 @@ struct MuscleSettings {
   std::vector<ValueKeySettings> keys = {};  ///< keys of activation
 };
 
+struct SpringKeySettings {
+  double time = 0;
+  Vec3 to = Vec3::Zero();
+  double factor = 1;
+};
+
+struct SpringSettings {
+  std::string name;
+  std::optional<Vec3> at = {};       ///< a point of the body at rest
+  std::optional<int> particle = {};  ///< or an id
+  double stiffness = 0;
+  std::vector<SpringKeySettings> keys = {};
+};
+
 struct WorldSettings {
   double drag = 0;
   std::vector<ObstacleSettings> obstacles = {};
   std::vector<PinSettings> pins = {};
   std::vector<FieldSettings> fields = {};
   std::vector<MuscleSettings> muscles = {};
+  std::vector<SpringSettings> springs = {};
 
   /// Whether it has no entries.
   bool empty() const {
-    return drag == 0 && obstacles.empty() && pins.empty() && fields.empty() && muscles.empty();
+    return drag == 0 && obstacles.empty() && pins.empty() && fields.empty() && muscles.empty() &&
+           springs.empty();
   }
 };
 

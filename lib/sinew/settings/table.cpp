@@ -14,9 +14,10 @@ std::vector<std::string_view> axes() { return {"x", "y", "z", "-x", "-y", "-z"};
 template <class S>
 std::vector<Field<S>> rows_of_mesh(std::string_view section) {
   return {
-      required(path(field<S>(section, "mesh", SINEW_AT(S, body.mesh), "",
-                             "path of the mesh (OBJ, OFF, STL, PLY, glTF, GLB, VTP, VTU, VTK, "
-                             "VTI), relative to the scene file"))),
+      required(path(field<S>(
+          section, "mesh", SINEW_AT(S, body.mesh), "",
+          "path of the mesh (OBJ, OFF, STL, PLY, glTF, GLB, VRM, FBX, COLLADA, VTP, VTU, VTK, "
+          "VTI), relative to the scene file"))),
       choice<S>(section, "unit", SINEW_AT(S, body.unit), {"m", "dm", "cm", "mm", "um", "in", "ft"},
                 "unit of the mesh's lengths"),
       field<S>(section, "scale", SINEW_AT(S, body.scale), "",
@@ -95,13 +96,18 @@ std::vector<std::string_view> names_of_models() {
   return names;
 }
 
+std::vector<std::string_view> names_of_presets() {
+  std::vector<std::string_view> names = {"none"};
+  for (const MaterialPreset& preset : material_presets()) names.push_back(preset.name);
+  return names;
+}
+
 std::vector<Field<Settings>> make_material() {
   using S = Settings;
   return {
-      choice<S>("material", "preset", SINEW_AT(S, material.preset),
-                {"none", "fat", "muscle", "skin", "silicone", "rubber_foam", "clay"},
+      choice<S>("material", "preset", SINEW_AT(S, material.preset), names_of_presets(),
                 "named material: sets density, young_modulus, poisson_ratio and damping_ratio "
-                "where the scene does not"),
+                "where the scene does not; sinew presets lists them"),
       choice<S>(
           "material", "model", SINEW_AT(S, material.model), names_of_models(),
           "paper: Komiya and Tokoi's, has no fixed bonds and flows under large bending; bonded: "
@@ -143,8 +149,7 @@ std::vector<Field<Settings>> make_material() {
   };
 }
 
-/// The rest of the section material.
-std::vector<Field<Settings>> make_damping_and_strength() {
+std::vector<Field<Settings>> make_damping() {
   using S = Settings;
   return {
       field<S>("material", "damping", SINEW_AT(S, material.damping), "sqrt(k m)",
@@ -166,6 +171,13 @@ std::vector<Field<Settings>> make_damping_and_strength() {
           "relative to what holds the body, beta is reached in the lowest mode; for damping_form "
           "rigid",
           not_negative, "none"),
+  };
+}
+
+/// What bonds and touching parts bear.
+std::vector<Field<Settings>> make_strength() {
+  using S = Settings;
+  return {
       field<S>("material", "breaking_strain", SINEW_AT(S, material.breaking_strain), "",
                "strain at which a bond breaks, in bonded models", positive, "none"),
       field<S>("material", "fracture_energy", SINEW_AT(S, material.fracture_energy), "J/m^2",
@@ -203,10 +215,9 @@ std::vector<Field<Settings>> make_damping_and_strength() {
 std::vector<Field<Settings>> make_skeleton_section() {
   using S = Settings;
   return {
-      path(may_lack(
-          "none",
-          field<S>("skeleton", "file", SINEW_AT(S, skeleton.file), "",
-                   "rig file, instead of bones: YAML with a list of bones, BVH, glTF or GLB"))),
+      path(may_lack("none", field<S>("skeleton", "file", SINEW_AT(S, skeleton.file), "",
+                                     "rig file, instead of bones: YAML with a list of bones, BVH, "
+                                     "glTF, GLB, VRM, FBX or COLLADA"))),
       field<S>("skeleton", "scale", SINEW_AT(S, skeleton.scale), "",
                "factor on the lengths of the rig and its motion", positive),
       choice<S>("skeleton", "up", SINEW_AT(S, skeleton.up), axes(),
@@ -229,15 +240,37 @@ std::vector<Field<Settings>> make_skeleton_section() {
   };
 }
 
+Field<Settings> names_row() {
+  Field<Settings> row;
+  row.section = "motion";
+  row.name = "names";
+  row.kind = FieldKind::pairs;
+  row.choices = {"none"};
+  row.help =
+      "which joint of the clip moves which bone, as [bone, joint], whatever their rest poses; "
+      "none: those of one name";
+  row.get = [](const Settings& settings) -> FieldValue {
+    const std::vector<NamePair>& given = settings.motion.names;
+    return given.empty() ? FieldValue(std::string("none")) : FieldValue(given);
+  };
+  row.set = [](Settings& settings, const FieldValue& value) {
+    const auto* pairs = std::get_if<std::vector<NamePair>>(&value);
+    settings.motion.names = pairs == nullptr ? std::vector<NamePair>() : *pairs;
+  };
+  return row;
+}
+
 std::vector<Field<Settings>> make_motion_section() {
   using S = Settings;
   return {
-      path(may_lack(
-          "none",
-          field<S>("motion", "file", SINEW_AT(S, motion.file), "",
-                   "clip file, instead of tracks: YAML with a list of tracks, BVH, glTF or GLB"))),
+      path(may_lack("none",
+                    field<S>("motion", "file", SINEW_AT(S, motion.file), "",
+                             "clip file, instead of tracks: YAML with a list of tracks, BVH, glTF, "
+                             "GLB, VRM, FBX, COLLADA, or a table of keys (.csv) as sinew play "
+                             "records them"))),
       may_lack("auto", field<S>("motion", "clip", SINEW_AT(S, motion.clip), "",
                                 "name of the clip, if the file has several; auto: the only clip")),
+      names_row(),
       field<S>("motion", "start", SINEW_AT(S, motion.start), "s",
                "time in the clip at which the motion begins", not_negative),
       field<S>("motion", "end", SINEW_AT(S, motion.end), "s",
@@ -413,7 +446,7 @@ std::vector<Field<Settings>> make_hierarchy() {
 std::vector<Field<Settings>> make_settings() {
   std::vector<Field<Settings>> all;
   for (const auto& section :
-       {make_body(), make_material(), make_damping_and_strength(), make_skeleton_section(),
+       {make_body(), make_material(), make_damping(), make_strength(), make_skeleton_section(),
         make_motion_section(), make_binding(), make_contact(), make_world(), make_solver(),
         make_hierarchy(), output_rows()})
     all.insert(all.end(), section.begin(), section.end());

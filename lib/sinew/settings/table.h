@@ -64,13 +64,15 @@ std::span<const Field<BoundSettings>> bound_fields();    ///< binding.explicit[]
 std::span<const Field<KeyDefinition>> key_fields();      ///< motion.tracks[].keys[]
 
 // Lists of the section world, and the keys of their entries.
-std::span<const Field<ObstacleSettings>> obstacle_fields();    ///< world.obstacles[]
-std::span<const Field<PlaceKeySettings>> place_key_fields();   ///< world.obstacles[].keys[]
-std::span<const Field<PinSettings>> pin_fields();              ///< world.pins[]
-std::span<const Field<FieldSettings>> field_fields();          ///< world.fields[]
-std::span<const Field<ValueKeySettings>> strength_fields();    ///< world.fields[].keys[]
-std::span<const Field<MuscleSettings>> muscle_fields();        ///< world.muscles[]
-std::span<const Field<ValueKeySettings>> activation_fields();  ///< world.muscles[].keys[]
+std::span<const Field<ObstacleSettings>> obstacle_fields();     ///< world.obstacles[]
+std::span<const Field<PlaceKeySettings>> place_key_fields();    ///< world.obstacles[].keys[]
+std::span<const Field<PinSettings>> pin_fields();               ///< world.pins[]
+std::span<const Field<FieldSettings>> field_fields();           ///< world.fields[]
+std::span<const Field<ValueKeySettings>> strength_fields();     ///< world.fields[].keys[]
+std::span<const Field<MuscleSettings>> muscle_fields();         ///< world.muscles[]
+std::span<const Field<ValueKeySettings>> activation_fields();   ///< world.muscles[].keys[]
+std::span<const Field<SpringSettings>> spring_fields();         ///< world.springs[]
+std::span<const Field<SpringKeySettings>> spring_key_fields();  ///< world.springs[].keys[]
 
 std::span<const Field<LocalMaterialSettings>> material_fields();  ///< materials[]
 

@@ -138,6 +138,31 @@ std::vector<Field<MuscleSettings>> make_muscles() {
   return rows;
 }
 
+std::vector<Field<SpringSettings>> make_springs() {
+  using S = SpringSettings;
+  return {
+      required(field<S>("", "name", SINEW_AT(S, name), "",
+                        "unique name of the spring, among those of loads and supports too")),
+      field<S>("", "at", SINEW_AT(S, at), "m",
+               "point of the body at rest, which follows the particles near it", any, "none"),
+      field<S>("", "particle", SINEW_AT(S, particle), "", "or one particle, by its id",
+               not_negative, "none"),
+      required(field<S>("", "stiffness", SINEW_AT(S, stiffness), "N/m",
+                        "force per distance from its free end", positive)),
+  };
+}
+
+std::vector<Field<SpringKeySettings>> make_spring_keys() {
+  using K = SpringKeySettings;
+  return {
+      required(field<K>("", "time", SINEW_AT(K, time), "s", "time of this key", not_negative)),
+      required(
+          field<K>("", "to", SINEW_AT(K, to), "m", "place of the free end; linear between keys")),
+      field<K>("", "factor", SINEW_AT(K, factor), "",
+               "factor on the force, 0: none; linear between keys", {0, 1}),
+  };
+}
+
 std::vector<Field<ValueKeySettings>> make_value_keys(std::string_view name, std::string_view help,
                                                      Range range) {
   using K = ValueKeySettings;
@@ -186,6 +211,16 @@ std::span<const Field<ValueKeySettings>> strength_fields() {
 
 std::span<const Field<MuscleSettings>> muscle_fields() {
   static const auto table = make_muscles();
+  return table;
+}
+
+std::span<const Field<SpringSettings>> spring_fields() {
+  static const auto table = make_springs();
+  return table;
+}
+
+std::span<const Field<SpringKeySettings>> spring_key_fields() {
+  static const auto table = make_spring_keys();
   return table;
 }
 

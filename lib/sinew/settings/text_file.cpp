@@ -146,6 +146,19 @@ std::string path_in(const fs::path& folder, const std::string& path) {
   return path.empty() || fs::path(path).is_absolute() ? path : seen_from(folder, path).string();
 }
 
+std::vector<std::string> files_of(const Settings& settings) {
+  std::vector<std::string> files;
+  for (const auto& row : settings_table()) {
+    if (row.kind != FieldKind::path) continue;
+    const FieldValue value = row.get(settings);
+    if (const auto* path = std::get_if<std::string>(&value)) files.push_back(*path);
+  }
+  for (const PartOptions& part : settings.bodies) files.push_back(part.body.mesh);
+  for (const LocalMaterialSettings& one : settings.materials) files.push_back(one.part.mesh);
+  for (const ObstacleSettings& obstacle : settings.world.obstacles) files.push_back(obstacle.mesh);
+  return files;
+}
+
 void open_paths_from_here(Settings& settings, const fs::path& folder) {
   const std::string scene = settings.place("").file;
   for (const auto& row : settings_table()) {

@@ -41,6 +41,9 @@ std::filesystem::path seen_from(const std::filesystem::path& folder,
 /// A path as the scene in `folder` writes it: relative ones from there. "" stays.
 std::string path_in(const std::filesystem::path& folder, const std::string& path);
 
+/// The files that a scene names: meshes, rigs, clips, images; as the settings have them.
+std::vector<std::string> files_of(const Settings& settings);
+
 /// Makes the scene's paths, relative to `folder`, relative to the current directory. Those given on
 /// the command line already are.
 void open_paths_from_here(Settings& settings, const std::filesystem::path& folder);

@@ -257,6 +257,8 @@ std::vector<std::string> homes_of(std::string_view name) {
   search(strength_fields(), "world.fields[].keys");
   search(muscle_fields(), "world.muscles");
   search(activation_fields(), "world.muscles[].keys");
+  search(spring_fields(), "world.springs");
+  search(spring_key_fields(), "world.springs[].keys");
   search(support_fields(), "supports");
   search(load_fields(), "loads");
   search(factor_fields(), "loads[].keys");

@@ -29,6 +29,7 @@ Features features_of(const World& world) {
       {muscles, !world.muscles.active.empty()},
       {oblique_pins, any_has(world.pins, &Pinned::is_oblique)},
       {pressures, any_has(world.loads, &Load::pressure)},
+      {springs, any_has(world.loads, &Load::stiffness)},
   });
 }
 

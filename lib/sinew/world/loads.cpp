@@ -87,6 +87,21 @@ Load pressure_load(const std::string& name, const Triangles& surface, double pre
   return load;
 }
 
+Load spring_load(const std::string& name, const Vec3& point, double stiffness, const Points& rest,
+                 double radius) {
+  const FollowingPoints at = following({point}, rest, radius);
+  Load load = force_load(name, at.particle, at.weight, Vec3::Zero(), rest);
+  load.stiffness = stiffness;
+  return load;
+}
+
+Load spring_load(const std::string& name, std::uint32_t particle, double stiffness,
+                 const Points& rest) {
+  Load load = force_load(name, {particle}, {1}, Vec3::Zero(), rest);
+  load.stiffness = stiffness;
+  return load;
+}
+
 void save_loads(std::span<const LoadNow> loads, SimulationState& state) {
   // Steps of each pressure, places of its corners, m, and their motions in a step, m.
   std::vector<double> numbers;
@@ -114,12 +129,15 @@ double load_stiffness(const Load& load, double radius) {
   // A corner's force changes by at most p / 2 times the opposite sides of its faces, about six of
   // two radii, when it moves, and as much when its neighbors do; weights may alternate.
   constexpr double sides = 24;
-  return sides * std::abs(load.pressure) * load.scale.largest() * radius;
+  double of_spring = 0;  // norm of k w w^T, N/m
+  for (const double weight : load.weight) of_spring += load.stiffness * weight * weight;
+  return (sides * std::abs(load.pressure) * radius + of_spring) * load.scale.largest();
 }
 
 void check_load(const Load& load) {
-  if (!load.force.allFinite() || !std::isfinite(load.pressure))
-    throw bad_input(name_of(load.name) + " is not finite", "give finite numbers");
+  const bool is_finite =
+      load.force.allFinite() && std::isfinite(load.pressure) && std::isfinite(load.stiffness);
+  if (!is_finite) throw bad_input(name_of(load.name) + " is not finite", "give finite numbers");
   constexpr double any = std::numeric_limits<double>::max();
   check_keys(load.scale, -any, any, name_of(load.name));
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces that a testing machine puts on parts of a body: a force, a traction or a weight, which
-// keep their direction, and a pressure, which follows the surface.
+// keep their direction, a pressure, which follows the surface, and a spring, which pulls a point of
+// the body to a place.
 //
 //     LoadNow now(load);
-//     now.find(load.scale.at(time), [&](std::size_t k) { return position_of(k); }, true);
+//     now.find(load.at(time), [&](std::size_t k) { return position_of(k); }, true);
 //     force += now.force(k);   // on particle load.particles[k]
 #pragma once
 
@@ -23,6 +24,14 @@
 
 namespace sinew {
 
+/// A load at one moment.
+struct LoadAt {
+  double scale = 1;
+  Vec3 free_end = Vec3::Zero();  ///< m
+
+  bool operator==(const LoadAt&) const = default;
+};
+
 struct Load {
   std::string name;
   KeyedValue scale;                            ///< over time; 1 without keys
@@ -33,6 +42,10 @@ struct Load {
   std::vector<std::array<int, 3>> faces = {};  ///< faces of `corners` on which it acts
   FollowingPoints corners = {};                ///< corners from places in `particles`
   Vec3 pivot = Vec3::Zero();                   ///< pivot of its moment, m
+  double stiffness = 0;                        ///< stiffness of a spring, N/m
+  KeyedPlace free_end = {};                    ///< free end of the spring over time
+
+  LoadAt at(double time) const { return {scale.at(time), free_end.at(time)}; }
 };
 
 /// A force (N) distributed over particles as listed, with the same number more than once if need
@@ -40,6 +53,14 @@ struct Load {
 /// Throws bad input, which names it, for no particles and weights that cancel.
 Load force_load(const std::string& name, const std::vector<std::uint32_t>& particles,
                 const std::vector<double>& weights, const Vec3& force, const Points& rest);
+
+/// A spring of that stiffness (N/m) on the point of the body that was at `point` at `rest` (m),
+/// which follows the particles near it, or on one `particle` alone. Without keys its free end is
+/// the origin. Throws bad input as force_load() does.
+Load spring_load(const std::string& name, const Vec3& point, double stiffness, const Points& rest,
+                 double radius);
+Load spring_load(const std::string& name, std::uint32_t particle, double stiffness,
+                 const Points& rest);
 
 /// Number of particles that each corner of a pressure follows: of two layers, at least.
 inline constexpr std::size_t followed_by_corners = 12;
@@ -66,27 +87,34 @@ AreaWeights area_weights(const Triangles& surface, const Points& rest, double ra
 class LoadNow {
  public:
   explicit LoadNow(const Load& load)
-      : load_(&load), pressed_(load.faces, load.corners, load.particles.size()) {}
+      : load_(&load), sum_(load.force), pressed_(load.faces, load.corners, load.particles.size()) {}
 
   /// Finds the forces at a moment; `position(k)`: of load.particles[k], m; `stepping`: for a step
   /// that follows. Returns whether they may have changed. In parallel; the same bits for any number
   /// of threads.
   template <class Position>
-  bool find(double scale, const Position& position, bool stepping) {
-    const bool scaled = scale != scale_;
-    scale_ = scale;
+  bool find(const LoadAt& at, const Position& position, bool stepping) {
+    const bool scaled = at.scale != scale_;
+    scale_ = at.scale;
+    if (load_->stiffness > 0 && (scaled || scale_ != 0)) {
+      Vec3 place = Vec3::Zero();
+      for (std::size_t k = 0; k < load_->particles.size(); ++k)
+        place += load_->weight[k] * position(k);
+      sum_ = load_->stiffness * (at.free_end - place);
+      return true;
+    }
     return pressed_.find(position, stepping) || scaled;
   }
 
   /// On load.particles[k], N.
   Vec3 force(std::size_t k) const {
-    Vec3 sum = scale_ * load_->weight[k] * load_->force;
+    Vec3 sum = scale_ * load_->weight[k] * sum_;
     if (!pressed_.empty()) sum += scale_ * load_->pressure * pressed_.force(k);
     return sum;
   }
   /// Sums its forces as found last, those of a pressure by their lengths, N.
   double size() const {
-    return std::abs(scale_) * (load_->force.norm() + std::abs(load_->pressure) * pressed_.size());
+    return std::abs(scale_) * (sum_.norm() + std::abs(load_->pressure) * pressed_.size());
   }
 
   PressedFaces& pressed() { return pressed_; }
@@ -94,6 +122,7 @@ class LoadNow {
 
  private:
   const Load* load_;
+  Vec3 sum_;  ///< sum of the force or the spring, N
   PressedFaces pressed_;
   double scale_ = std::numeric_limits<double>::quiet_NaN();
 };

@@ -29,9 +29,9 @@ void check_region(const Region& region, const std::string& what) {
 namespace {
 
 /// Index of the first key after `time`.
-std::size_t after(const KeyedValue& keys, double time) {
-  return static_cast<std::size_t>(std::upper_bound(keys.times.begin(), keys.times.end(), time) -
-                                  keys.times.begin());
+std::size_t after(const std::vector<double>& times, double time) {
+  return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) -
+                                  times.begin());
 }
 
 double slope_before(const KeyedValue& keys, std::size_t next) {
@@ -42,14 +42,23 @@ double slope_before(const KeyedValue& keys, std::size_t next) {
 
 double KeyedValue::at(double time) const {
   if (times.empty()) return 1;
-  const std::size_t next = after(*this, time);
+  const std::size_t next = after(times, time);
   if (next == 0) return values.front();
   if (next == times.size()) return values.back();
   return values[next - 1] + slope_before(*this, next) * (time - times[next - 1]);
 }
 
+Vec3 KeyedPlace::at(double time) const {
+  if (times.empty()) return Vec3::Zero();
+  const std::size_t next = after(times, time);
+  if (next == 0) return places.front();
+  if (next == times.size()) return places.back();
+  const double reached = (time - times[next - 1]) / (times[next] - times[next - 1]);
+  return places[next - 1] + reached * (places[next] - places[next - 1]);
+}
+
 double KeyedValue::rate(double time) const {
-  const std::size_t next = after(*this, time);
+  const std::size_t next = after(times, time);
   return next == 0 || next == times.size() ? 0 : slope_before(*this, next);
 }
 

@@ -35,6 +35,13 @@ struct KeyedValue {
   double largest() const;  ///< largest magnitude over all time
 };
 
+struct KeyedPlace {
+  std::vector<double> times;  ///< s, strictly ascending
+  std::vector<Vec3> places;   ///< one per time, m
+
+  Vec3 at(double time) const;  ///< the origin without keys
+};
+
 /// Throws bad input, which names `what` the keys are for, unless there is one value per time, all
 /// are finite, times ascend and values lie in [low, high].
 void check_keys(const KeyedValue& keys, double low, double high, const std::string& what);

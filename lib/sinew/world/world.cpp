@@ -121,7 +121,7 @@ WorldNow world_at(const World& world, double time, const Pose& pose) {
   for (const ForceField& field : world.fields) now.scales.push_back(field.scale.at(time));
   now.activations = activations_at(world.muscles, time);
   now.supports = poses_of(world.supports, time, pose);
-  for (const Load& load : world.loads) now.loads.push_back(load.scale.at(time));
+  for (const Load& load : world.loads) now.loads.push_back(load.at(time));
   return now;
 }
 

@@ -41,7 +41,7 @@ struct WorldNow {
   std::vector<double> scales;  ///< scales of the fields
   Activations activations;
   std::vector<ObstaclePose> supports;
-  std::vector<double> loads;  ///< their scales
+  std::vector<LoadAt> loads;
 };
 
 WorldNow world_at(const World& world, double time, const Pose& pose);

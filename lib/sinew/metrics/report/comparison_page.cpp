@@ -28,12 +28,6 @@ std::string header(const RunComparison& compared) {
                                element("p", line, "class=\"quiet\""));
 }
 
-std::string remarks(const RunComparison& compared) {
-  std::string items;
-  for (const std::string& remark : compared.remarks) items += element("li", escaped(remark));
-  return items.empty() ? "" : element("ul", items, "class=\"remarks\"");
-}
-
 std::string verdict_of(const ComparedRun& run, const std::string& name) {
   return element("h2", escaped(name)) +
          verdict_cards(run.frames, run.summary, run.radius, run.particles);
@@ -107,14 +101,6 @@ std::string playback_section(const ComparisonInput& input) {
   return element("section",
                  element("h2", "Side by side") + element("p", escaped(line), "class=\"quiet\"") +
                      view_section("Largest difference of"),
-                 "class=\"needs-script\"");
-}
-
-std::string curves_section(const ComparisonInput& input) {
-  if (input.curves.empty()) return "";
-  return element("section",
-                 element("h2", "Load over displacement") +
-                     element("div", "", "class=\"charts\" id=\"curves\""),
                  "class=\"needs-script\"");
 }
 
@@ -259,15 +245,21 @@ Playback side_by_side(const Playback& first, const Playback& second,
     if (other != second.frames.end()) playback.frames.push_back(joined(frame, *other, shift));
   }
   join_shape(playback, second, prefixes);
+  playback.ranges.clear();
+  for (const auto& [quantity, range] : first.ranges)
+    if (const auto other = second.ranges.find(quantity); other != second.ranges.end())
+      playback.ranges[quantity] = {std::min(range.low, other->second.low),
+                                   std::max(range.high, other->second.high)};
   return playback;
 }
 
 std::string comparison_html(const ComparisonInput& input) {
   const RunComparison& compared = input.comparison;
   const std::string body =
-      header(compared) + remarks(compared) + verdict_of(compared.first, name_of(compared, false)) +
+      header(compared) + remarks(compared.remarks) +
+      verdict_of(compared.first, name_of(compared, false)) +
       verdict_of(compared.second, name_of(compared, true)) + checks_table(compared.checks) +
-      playback_section(input) + curves_section(input) +
+      playback_section(input) + curves_section("Load over displacement", input.curves) +
       charts_section(!input.playback.frames.empty()) + differences_table(compared) +
       element("h2", "Differences between the scenes") +
       (input.facts.empty() ? element("p", "No setting does.") : fact_lists(input.facts)) +

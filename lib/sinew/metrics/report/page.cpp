@@ -171,7 +171,7 @@ std::string scripts(const Page& page) {
   return json_script("data", page_json(page.data)) + playback +
          element("script", std::string(chart_library())) +
          element("script", std::string(scene_library())) +
-         element("script", std::string(page_script()));
+         element("script", std::string(view_script()) + std::string(page_script()));
 }
 
 std::string head(const Page& page) {
@@ -264,6 +264,12 @@ std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& s
   return element("section", cards, "class=\"cards\" aria-label=\"Verdict\"");
 }
 
+std::string remarks(const std::vector<std::string>& sentences) {
+  std::string items;
+  for (const std::string& sentence : sentences) items += element("li", escaped(sentence));
+  return items.empty() ? "" : element("ul", items, "class=\"remarks\"");
+}
+
 std::string checks_table(std::span<const Check> checks) {
   if (checks.empty()) return "";
   std::string rows;
@@ -281,6 +287,16 @@ std::string checks_table(std::span<const Check> checks) {
 std::string described(const Metric& metric) { return description(metric); }
 
 std::string described(const RunMetric& metric) { return description(metric); }
+
+std::string curves_section(const std::string& title, const std::vector<LawCurve>& curves,
+                           const std::string& hint) {
+  if (curves.empty()) return "";
+  return element("section",
+                 element("h2", title) +
+                     (hint.empty() ? "" : element("p", hint, "class=\"quiet hint\"")) +
+                     element("div", "", "class=\"charts\" id=\"curves\""),
+                 "class=\"needs-script\"");
+}
 
 std::string charts_section(bool with_view) {
   std::string hint =

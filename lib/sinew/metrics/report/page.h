@@ -68,6 +68,9 @@ std::string end_band(const RunEnd& end);
 std::string verdict_cards(std::span<const FrameMetrics> frames, const Summary& summary,
                           double radius, std::size_t particles);
 
+/// Sentences in a frame; empty without any.
+std::string remarks(const std::vector<std::string>& sentences);
+
 /// Heading and table; empty without checks.
 std::string checks_table(std::span<const Check> checks);
 
@@ -77,6 +80,10 @@ std::string described(const RunMetric& metric);
 
 /// Heading, hint and container of the charts; `with_view`: a click moves the 3D view to that time.
 std::string charts_section(bool with_view);
+
+/// Heading, hint and container of the curves; empty without any.
+std::string curves_section(const std::string& title, const std::vector<LawCurve>& curves,
+                           const std::string& hint = "");
 
 /// Heading, hint and container of the chart of a testing machine; empty without one.
 std::string machine_section(std::span<const MachineColumn> columns);
@@ -95,7 +102,8 @@ std::string unfolded(const std::string& title, const std::string& markup);
 
 // The files embedded in every page.
 std::string_view page_style();
-std::string_view page_script();
+std::string_view view_script();    ///< the 3D view, its parts and colors
+std::string_view page_script();    ///< what a report has beside it
 std::string_view view_markup();    ///< the 3D view and its controls
 std::string_view chart_library();  ///< Chart.js
 std::string_view scene_library();  ///< three.js and its orbit controls

@@ -25,15 +25,30 @@ std::uint64_t mixed(std::uint64_t i) {
   return i ^ (i >> 31);
 }
 
-std::vector<std::uint32_t> picked(std::size_t count, std::size_t wanted) {
-  std::vector<std::uint32_t> all(count);
-  std::iota(all.begin(), all.end(), 0u);
-  if (wanted >= count) return all;
+/// A choice of as many as wanted, by chance, in their order.
+std::vector<std::uint32_t> picked(std::vector<std::uint32_t> all, std::size_t wanted) {
+  if (wanted >= all.size()) return all;
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(wanted), all.end(),
                    [](std::uint32_t a, std::uint32_t b) { return mixed(a) < mixed(b); });
   all.resize(wanted);
   std::sort(all.begin(), all.end());
   return all;
+}
+
+constexpr double layer_thickness = 2.5;  // radii: the second layer fills gaps of the first
+
+/// Whether each particle lies in the layer that is seen where the page cuts the body open: behind
+/// the middle of its box, across its shorter horizontal axis (beforeCut in view.js).
+std::vector<bool> layer_of_cut(const RestBody& rest) {
+  const Box box = bounds(rest.shape.points);
+  const int axis = box.sizes().y() <= 1.01 * box.sizes().x() ? 1 : 0;  // places are rounded there
+  const double back = axis == 1 ? 1 : -1, middle = box.center()[axis];
+  std::vector<bool> is_in;
+  for (const Vec3& point : rest.shape.points) {
+    const double behind = back * (point[axis] - middle);
+    is_in.push_back(behind >= 0 && behind <= layer_thickness * rest.radius());
+  }
+  return is_in;
 }
 
 std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
@@ -55,13 +70,41 @@ std::size_t max_snapshots(const Playback& playback) {
   return std::min(playback.run_frames, playback.wanted.size() + extra_frames);
 }
 
+/// All, or some of the layer of the cut and of the others, larger by as much as is left out, so
+/// that the layer appears closed and the body filled.
+void choose_particles(Playback& playback, const RestBody& rest, std::size_t wanted) {
+  std::vector<std::uint32_t> all(playback.run_particles);
+  std::iota(all.begin(), all.end(), 0u);
+  const double layer = layer_thickness * rest.radius();
+  if (wanted >= all.size()) {
+    playback.balls = {{all.size(), rest.radius(), layer}};
+    playback.particles = std::move(all);
+    return;
+  }
+  const std::vector<bool> is_in_layer = layer_of_cut(rest);
+  const auto others = std::stable_partition(all.begin(), all.end(),
+                                            [&](std::uint32_t i) { return is_in_layer[i]; });
+  const std::size_t beside = static_cast<std::size_t>(all.end() - others);
+  playback.particles = picked({all.begin(), others}, wanted / 2);
+  const std::size_t shown = playback.particles.size();
+  const std::vector<std::uint32_t> some = picked({others, all.end()}, wanted - shown);
+  playback.particles.insert(playback.particles.end(), some.begin(), some.end());
+  const auto over = [](std::size_t all_of_them, std::size_t of_them) {
+    return static_cast<double>(all_of_them) /
+           static_cast<double>(std::max<std::size_t>(of_them, 1));
+  };
+  const auto in_layer = static_cast<std::size_t>(others - all.begin());
+  playback.balls = {{shown, std::sqrt(over(in_layer, shown)) * rest.radius(), layer},
+                    {some.size(), std::cbrt(over(beside, some.size())) * rest.radius(), layer}};
+}
+
 void plan_particles(Playback& playback, const RestBody& rest, std::size_t bytes) {
   const std::size_t each = 6 + playback_fields().size();
   const std::size_t fewest = std::min(playback.run_particles, fewest_particles);
   playback.wanted =
       evenly(playback.run_frames, frames_paid(playback.run_frames, bytes, each * fewest));
-  playback.particles = picked(playback.run_particles,
-                              bytes / (each * std::max<std::size_t>(max_snapshots(playback), 1)));
+  choose_particles(playback, rest,
+                   bytes / (each * std::max<std::size_t>(max_snapshots(playback), 1)));
   for (const auto i : playback.particles) playback.bone.push_back(rest.bone_of[i]);
 }
 
@@ -84,11 +127,6 @@ auto place_of(const Playback& playback, std::size_t frame) {
   return std::lower_bound(
       playback.frames.begin(), playback.frames.end(), frame,
       [](const PlaybackFrame& one, std::size_t number) { return one.frame < number; });
-}
-
-double shown_radius(const Playback& playback, double radius) {
-  const auto shown = static_cast<double>(playback.particles.size());
-  return radius * std::cbrt(static_cast<double>(playback.run_particles) / std::max(1.0, shown));
 }
 
 using GridCell = std::array<std::int64_t, 3>;
@@ -127,18 +165,22 @@ std::vector<std::uint32_t> stand_ins(const Triangles& surface, std::size_t most)
 std::span<const PlaybackField> playback_fields() {
   using V = ParticleValues;
   static constexpr std::array fields = {
-      PlaybackField{"displacement", "m", "Distance from the position at rest", &V::displacement},
-      PlaybackField{"speed", "m/s", "Size of the velocity", &V::speed},
-      PlaybackField{"J", "", "Local volume ratio; below zero inside out", &V::J},
-      PlaybackField{"strain", "", "Equivalent Hencky strain: change of shape", &V::strain},
-      PlaybackField{"von Mises stress", "Pa", "Of Cauchy's stress", &V::von_mises},
-      PlaybackField{"D2min", "m²", "Nonaffine motion: flow", &V::D2min},
-      PlaybackField{"neighbors", "", "Particles within the interaction range", &V::neighbors},
-      PlaybackField{"turnover", "", "Neighbors lost and gained, over those at rest", &V::turnover},
-      PlaybackField{"distance to rigid pose", "m", "Distance from the rigid pose of its bone",
-                    &V::pose_error},
-      PlaybackField{"weight of its bone", "", "Weight of the bone it follows; 1: that one alone",
-                    &V::weight},
+      PlaybackField{"displacement", "displacement", "m", "Distance from the position at rest",
+                    &V::displacement},
+      PlaybackField{"speed", "speed", "m/s", "Size of the velocity", &V::speed},
+      PlaybackField{"J", "J", "", "Local volume ratio; below zero inside out", &V::J},
+      PlaybackField{"strain", "strain_eq", "", "Equivalent Hencky strain: change of shape",
+                    &V::strain},
+      PlaybackField{"von Mises stress", "von_mises", "Pa", "Of Cauchy's stress", &V::von_mises},
+      PlaybackField{"D2min", "D2min", "m²", "Nonaffine motion: flow", &V::D2min},
+      PlaybackField{"neighbors", "neighbors", "", "Particles within the interaction range",
+                    &V::neighbors},
+      PlaybackField{"turnover", "turnover", "", "Neighbors lost and gained, over those at rest",
+                    &V::turnover},
+      PlaybackField{"distance to rigid pose", "pose_error", "m",
+                    "Distance from the rigid pose of its bone", &V::pose_error},
+      PlaybackField{"weight of its bone", "weight", "",
+                    "Weight of the bone it follows; 1: that one alone", &V::weight},
   };
   return fields;
 }
@@ -194,7 +236,6 @@ Playback plan_playback(const RestBody& rest, std::size_t frames, double fraction
     return static_cast<std::size_t>(fraction * static_cast<double>(all));
   };
   plan_particles(playback, rest, bytes_of(particle_bytes));
-  playback.balls = {{playback.particles.size(), shown_radius(playback, rest.radius())}};
   ThinSurface skin =
       thin_surface(rest.surface, bytes_of(surface_bytes) / (6 * max_snapshots(playback)));
   playback.points = std::move(skin.points);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <sinew/core/triangles.h>
+#include <sinew/core/value_range.h>
 #include <sinew/metrics/frame_metrics.h>
 #include <sinew/metrics/particle_values.h>
 #include <sinew/metrics/rest_body.h>
@@ -22,7 +23,7 @@ namespace sinew {
 
 /// A value that particles can be colored by.
 struct PlaybackField {
-  std::string_view name, unit, help;
+  std::string_view name, quantity, unit, help;  ///< quantity: its name in files and ranges
   std::vector<double> ParticleValues::*values;
 };
 
@@ -44,13 +45,14 @@ struct PlaybackFrame {
 struct Balls {
   std::size_t count = 0;
   double radius = 0;
+  double layer = 0;  ///< thickness of the layer that a cut of their body shows, m
 };
 
 struct Playback {
   Vec3 origin = Vec3::Zero();  ///< origin of the places in its frames, m: near the body
   std::size_t run_frames = 0, run_particles = 0, run_points = 0;  ///< before thinning
   std::vector<std::size_t> wanted;                                ///< frames of the run, ascending
-  std::vector<std::uint32_t> particles;  ///< particles of the run, ascending
+  std::vector<std::uint32_t> particles;  ///< particles of the run, ascending in each of the balls
   std::vector<Balls> balls;              ///< the particles, in their order
   std::vector<int> bone;                 ///< bone that each of them follows, -1 for none
   std::vector<int> material = {};        ///< number of each one's name; empty: unknown
@@ -65,6 +67,7 @@ struct Playback {
   std::vector<int> bone_color;     ///< number of the color of each: of two runs, that of its name
   std::vector<bool> is_load = {};  ///< one per force in the frames; false: of a support
   std::vector<PlaybackFrame> frames;
+  ValueRanges ranges;  ///< ranges of the run's quantities; of others those of its frames
 
   bool wants(std::size_t frame) const;
   bool has(std::size_t frame) const;
@@ -84,8 +87,9 @@ struct ThinSurface {
 ThinSurface thin_surface(const Triangles& surface, std::size_t most);
 
 /// A playback without frames that selects what will be kept: all of a small run; of a large one,
-/// frames at even intervals including the first and the last, particles selected by a hash of their
-/// index, and a coarser skin. `fraction`: fraction of a page's bytes that it may take.
+/// frames at even intervals including the first and the last, the particles that a cut shows and
+/// others selected by a hash of their index, and a coarser skin. `fraction`: fraction of a page's
+/// bytes that it may take.
 Playback plan_playback(const RestBody& rest, std::size_t frames, double fraction = 1);
 
 /// Inserts a frame in order of time.
@@ -103,8 +107,8 @@ void add_obstacles(Playback& playback, std::size_t frame, const Box& space,
                    const Triangles& obstacles);
 
 /// For the page's script: positions as 16-bit fractions of the playback's box, values as 8-bit
-/// fractions of their range (a thousandth of the values at either end lies outside: it is between
-/// the `percentiles`), all in base64.
+/// fractions of their range (half a percent of the values at either end lies outside: it is between
+/// the `percentiles`), all in base64, and the colors of pictures.
 std::string playback_json(const Playback& playback);
 
 }  // namespace sinew

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 
 #include <sinew/core/base64.h>
+#include <sinew/core/color.h>
 #include <sinew/core/json.h>
 #include <sinew/metrics/report/playback.h>
 
@@ -11,9 +14,6 @@ namespace sinew {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Fraction of a field's values at either end that the range excludes.
-constexpr double outside = 1e-3;
 
 /// The numbers' bytes, lowest first.
 template <class Number>
@@ -61,46 +61,31 @@ std::string places_of(const Playback& playback, const Cube& cube,
   return base64_of(all);
 }
 
-struct Range {
-  float low, high;
-};
-
-/// The range of all but the outermost values of some particles; nothing where there are none.
-std::vector<Range> range_of(const Playback& playback, std::size_t field, std::size_t first,
-                            std::size_t count) {
-  std::vector<float> all;
-  for (const PlaybackFrame& frame : playback.frames)
-    for (std::size_t i = first; i < std::min(first + count, frame.values[field].size()); ++i)
-      if (const float value = frame.values[field][i]; std::isfinite(value)) all.push_back(value);
-  if (all.empty()) return {};
-  const auto at = [&](double fraction) {
-    const auto place =
-        all.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(all.size() - 1));
-    std::nth_element(all.begin(), place, all.end());
-    return *place;
-  };
-  return {{at(outside), at(1 - outside)}};
-}
-
-/// The range of both, where there are two runs: neither is outermost, however few its particles.
-std::vector<Range> range_of(const Playback& playback, std::size_t field) {
-  std::vector<Range> range;
+/// The range of a field: the run's, else that of the frames here; nothing where there are no
+/// values. Of two runs neither is outermost, however few its particles.
+std::optional<ValueRange> range_of(const Playback& playback, std::size_t field) {
+  const auto known = playback.ranges.find(std::string(playback_fields()[field].quantity));
+  const bool is_known = known != playback.ranges.end();
+  std::optional<ValueRange> range;
   std::size_t first = 0;
   for (const Balls& balls : playback.balls) {
-    for (const Range own : range_of(playback, field, first, balls.count)) {
-      if (range.empty()) range.push_back(own);
-      range[0].low = std::min(own.low, range[0].low);
-      range[0].high = std::max(own.high, range[0].high);
-    }
+    RangeFinder finder;
+    for (const PlaybackFrame& frame : playback.frames)
+      if (const auto& values = frame.values[field]; first < values.size())
+        finder.add(std::span(values).subspan(first, std::min(balls.count, values.size() - first)));
     first += balls.count;
+    if (finder.empty()) continue;
+    const ValueRange own = is_known ? known->second : finder.range();
+    range =
+        range ? ValueRange{std::min(range->low, own.low), std::max(range->high, own.high)} : own;
   }
   return range;
 }
 
 /// The values as 0 to 254 of their range; 255 stands for none.
-std::string levels_of(const Playback& playback, std::size_t field, Range range) {
+std::string levels_of(const Playback& playback, std::size_t field, const ValueRange& range) {
   std::vector<std::uint8_t> all;
-  const double width = range.high > range.low ? double(range.high) - range.low : 1;
+  const double width = range.high > range.low ? range.high - range.low : 1;
   for (const PlaybackFrame& frame : playback.frames)
     for (const float value : frame.values[field]) {
       const double fraction = std::clamp((double(value) - range.low) / width, 0.0, 1.0);
@@ -115,13 +100,13 @@ Json fields_of(const Playback& playback) {
   for (std::size_t f = 0; f < playback_fields().size(); ++f) {
     const PlaybackField& field = playback_fields()[f];
     if (field.values == &ParticleValues::weight && playback.bone_names.empty()) continue;
-    for (const Range range : range_of(playback, f))
+    if (const auto range = range_of(playback, f))
       fields.push_back({{"name", field.name},
                         {"unit", field.unit},
                         {"help", field.help},
-                        {"low", range.low},
-                        {"high", range.high},
-                        {"levels", levels_of(playback, f, range)}});
+                        {"low", range->low},
+                        {"high", range->high},
+                        {"levels", levels_of(playback, f, *range)}});
   }
   return fields;
 }
@@ -135,8 +120,16 @@ Json snapshots_of(const Playback& playback) {
 
 Json balls_of(const Playback& playback) {
   Json all = Json::array();
-  for (const auto& [count, radius] : playback.balls) all.push_back({count, radius});
+  for (const auto& [count, radius, layer] : playback.balls) all.push_back({count, radius, layer});
   return all;
+}
+
+/// Colors of the pictures, at even fractions of a range.
+Json colors_of_scale() {
+  constexpr int steps = 32;
+  Json colors = Json::array();
+  for (int k = 0; k <= steps; ++k) colors.push_back(mapped_color(double(k) / steps));
+  return colors;
 }
 
 std::string corners_of(const Playback& playback) {
@@ -179,7 +172,8 @@ std::string playback_json(const Playback& playback) {
                      {"isLoad", playback.is_load},
                      {"held", base64_of(playback.held)},
                      {"obstacles", obstacles_of(playback, cube)},
-                     {"percentiles", {100 * outside, 100 * (1 - outside)}},
+                     {"percentiles", {100 * beyond_range, 100 * (1 - beyond_range)}},
+                     {"colors", colors_of_scale()},
                      {"fields", fields_of(playback)}};
   return json_text(json);
 }

@@ -104,14 +104,6 @@ std::string playback_section(const ReportInput& input) {
                  "class=\"needs-script\"");
 }
 
-std::string curves_section(const ReportInput& input) {
-  if (input.curves.empty()) return "";
-  return element("section",
-                 element("h2", "The force laws of this scene") +
-                     element("div", "", "class=\"charts\" id=\"curves\""),
-                 "class=\"needs-script\"");
-}
-
 std::string worst_text(std::span<const FrameMetrics> frames, const MetricSummary& values) {
   if (!values.worst_frame) return "–";
   return std::to_string(*values.worst_frame) + " (" + readable(frames[*values.worst_frame].time) +
@@ -142,13 +134,13 @@ std::string report_html(const ReportInput& input) {
   if (input.frames.empty())
     throw bad_input("a report needs a frame at least", "measure a run that has written frames");
   const std::string body =
-      end_band(input.end) + header(input) +
+      end_band(input.end) + header(input) + remarks(input.warnings) +
       verdict_cards(input.frames, input.summary, input.radius, input.particles) +
       checks_table(input.checks) + playback_section(input) + pictures(input) +
       machine_section(input.machine) + charts_section(!input.playback.frames.empty()) +
-      curves_section(input) + metrics_tables(input.frames, input.summary) +
-      element("h2", "What was run") + fact_lists(input.facts) +
-      folded("The resolved scene", input.scene_text);
+      curves_section("The force laws of this scene", input.curves) +
+      metrics_tables(input.frames, input.summary) + element("h2", "What was run") +
+      fact_lists(input.facts) + folded("The resolved scene", input.scene_text);
   return page_html(
       {input.title, input.version, body, "metrics.csv", drawn_data(input), input.playback});
 }

@@ -65,6 +65,7 @@ struct ReportInput {
   double modulus = 0;   ///< Young's, Pa; 0: not known
   std::size_t particles = 0;
   RunEnd end;
+  std::vector<std::string> warnings;  ///< what is doubtful in the scene, each with its cure
   std::vector<FactGroup> facts;
   std::vector<FrameMetrics> frames;  ///< one at least
   Summary summary;                   ///< summary of these frames

@@ -5,7 +5,7 @@
 //     add_particles(stage.renderer(), snapshot, scale);
 #pragma once
 
-#include <sinew/render/color.h>
+#include <sinew/core/color.h>
 #include <sinew/render/shading.h>
 #include <sinew/render/snapshot.h>
 
@@ -13,10 +13,13 @@ class vtkRenderer;
 
 namespace sinew {
 
-/// Spheres of the snapshot's radius in the colors of their values, as far as they may be seen by
-/// the camera of `view`.
+/// Spheres of the snapshot's radius in the colors of their values, held ones with a dot, as far as
+/// they may be seen by the camera of `view`.
 void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
                    const Mat3& view);
+
+/// A dark dot on each held particle, toward the viewer.
+void add_held_dots(vtkRenderer& renderer, const Snapshot& snapshot, const Mat3& view);
 
 /// The part that its sides let be drawn, in the colors of its values; its edges likewise.
 void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,
@@ -68,7 +71,7 @@ void add_traces(vtkRenderer& renderer, const Snapshot& snapshot, double thicknes
 /// Each arrow in its length, in the color of its value.
 void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale);
 
-/// The forces of supports and loads as arrows.
-void add_forces(vtkRenderer& renderer, const Snapshot& snapshot);
+/// The forces of supports and loads as arrows that are readable on the paper.
+void add_forces(vtkRenderer& renderer, const Snapshot& snapshot, const Paper& paper);
 
 }  // namespace sinew

@@ -53,10 +53,23 @@ void add_edges(vtkRenderer& renderer, const Snapshot& snapshot, double lift,
   add_flat_lines(renderer, lines, edge_color, opacity, width);
 }
 
+constexpr double dot_size = 0.38;  // radii, of the dot on what is held
+
+/// Its center: it stands out of the sphere toward the viewer.
+Vec3 dot_of(const Snapshot& snapshot, std::size_t particle, const Mat3& view) {
+  return snapshot.particles[particle] + 0.8 * snapshot.radius * Vec3(view.row(2));
+}
+
+Mark mark_of(const Snapshot& snapshot, std::size_t particle) {
+  return snapshot.marks.empty() ? Mark::none : snapshot.marks[particle];
+}
+
+/// What is held keeps the color of its value, and has a dot.
 Color color_of(const Snapshot& snapshot, std::size_t particle, const ColorScale& scale) {
-  switch (snapshot.marks.empty() ? Mark::none : snapshot.marks[particle]) {
+  switch (mark_of(snapshot, particle)) {
     case Mark::held:
-      return palette::held;
+      if (snapshot.values.empty()) return palette::held;
+      break;
     case Mark::loaded:
       return palette::loaded;
     case Mark::muscle:
@@ -71,28 +84,54 @@ Color color_of(const Snapshot& snapshot, std::size_t particle, const ColorScale&
   return snapshot.values.empty() ? palette::particle : scale.color(snapshot.values[particle]);
 }
 
+/// Spheres of one size, each in its color.
+class Spheres {
+ public:
+  Spheres() { colors_->SetNumberOfComponents(3); }
+
+  void add(const Vec3& center, const Color& color) {
+    const vtkIdType point = points_->InsertNextPoint(center.data());
+    vertices_->InsertNextCell(1, &point);
+    colors_->InsertNextTypedTuple(color.data());
+  }
+
+  void put(vtkRenderer& renderer, double radius) {
+    if (points_->GetNumberOfPoints() == 0) return;
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points_);
+    data->SetVerts(vertices_);
+    data->GetPointData()->SetScalars(colors_);
+    vtkNew<vtkOpenGLSphereMapper> mapper;  // one quadrangle each, round by its shader
+    mapper->SetInputData(data);
+    mapper->SetRadius(static_cast<float>(radius));
+    add_actor(renderer, *mapper, palette::paper);
+  }
+
+ private:
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> vertices_;
+  vtkNew<vtkUnsignedCharArray> colors_;
+};
+
 }  // namespace
 
 void add_particles(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScale& scale,
                    const Mat3& view) {
-  if (snapshot.particles.empty()) return;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> vertices;
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetNumberOfComponents(3);
+  Spheres spheres, dots;
   for (const std::size_t i : visible_spheres(snapshot.particles, snapshot.radius, view)) {
-    const vtkIdType point = points->InsertNextPoint(snapshot.particles[i].data());
-    vertices->InsertNextCell(1, &point);
-    colors->InsertNextTypedTuple(color_of(snapshot, i, scale).data());
+    spheres.add(snapshot.particles[i], color_of(snapshot, i, scale));
+    if (mark_of(snapshot, i) == Mark::held && !snapshot.values.empty())
+      dots.add(dot_of(snapshot, i, view), palette::held);
   }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetVerts(vertices);
-  data->GetPointData()->SetScalars(colors);
-  vtkNew<vtkOpenGLSphereMapper> mapper;  // one quadrangle each, round by its shader
-  mapper->SetInputData(data);
-  mapper->SetRadius(static_cast<float>(snapshot.radius));
-  add_actor(renderer, *mapper, palette::paper);
+  spheres.put(renderer, snapshot.radius);
+  dots.put(renderer, dot_size * snapshot.radius);
+}
+
+void add_held_dots(vtkRenderer& renderer, const Snapshot& snapshot, const Mat3& view) {
+  Spheres dots;
+  for (std::size_t i = 0; i < snapshot.particles.size(); ++i)
+    if (mark_of(snapshot, i) == Mark::held) dots.add(dot_of(snapshot, i, view), palette::held);
+  dots.put(renderer, dot_size * snapshot.radius);
 }
 
 void add_skin(vtkRenderer& renderer, const Snapshot& snapshot, const Shading& skin,

@@ -2,9 +2,11 @@
 #include <sinew/render/detail/keys.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <sinew/core/text.h>
+#include <sinew/render/detail/text.h>
 
 namespace sinew {
 
@@ -12,12 +14,29 @@ int color_bar_height(const TextStyle& style) { return 3 * line_height(style); }
 
 namespace {
 
+/// The unit in which all numbers of a bar are given.
+PrefixedUnit unit_of(const ColorScale& scale) {
+  return prefixed_unit(std::max(std::abs(scale.low), std::abs(scale.high)), scale.unit);
+}
+
 /// Three digits, of thousands without an exponent.
 std::string number_on_bar(double value) {
   const double size = std::abs(value);
   if (!(size >= 1e3 && size < 1e6)) return three_digits(value);
   const double step = std::pow(10, std::floor(std::log10(size)) - 2);
   return std::to_string(std::llround(std::round(value / step) * step));
+}
+
+std::string title_of(const ColorScale& scale) {
+  const std::string unit = scale.unit.empty() ? "" : " (" + unit_of(scale).unit + ")";
+  return scale.name + unit + scale.note;
+}
+
+/// Numbers at the bar's left end, middle and right end.
+std::array<std::string, 3> numbers_of(const ColorScale& scale) {
+  const double size = unit_of(scale).size;
+  return {number_on_bar(scale.low / size), number_on_bar((scale.low + scale.high) / 2 / size),
+          number_on_bar(scale.high / size)};
 }
 
 void draw_names(Canvas& page, const ColorScale& scale, int x, int y, int width, TextStyle words) {
@@ -33,10 +52,11 @@ void draw_names(Canvas& page, const ColorScale& scale, int x, int y, int width, 
 void draw_values(Canvas& page, const ColorScale& scale, int x, int y, int width, TextStyle words) {
   const int line = line_height(words), thick = 3 * line / 4;
   page.fill(x, y, width, thick, scale.map);
-  for (const double part : {0.0, 0.5, 1.0}) {
-    const double value = scale.low + part * (scale.high - scale.low);
-    words.align = part == 0 ? Align::left : part == 1 ? Align::right : Align::center;
-    page.write(number_on_bar(value), x + static_cast<int>(part * width), y + thick + 2, words);
+  constexpr std::array<Align, 3> aligned = {Align::left, Align::center, Align::right};
+  const std::array<std::string, 3> numbers = numbers_of(scale);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    words.align = aligned[k];
+    page.write(numbers[k], x + static_cast<int>(k) * width / 2, y + thick + 2, words);
   }
 }
 
@@ -46,10 +66,20 @@ void draw_color_bar(Canvas& page, const ColorScale& scale, int x, int y, int wid
                     const TextStyle& style) {
   TextStyle words = style;
   words.align = Align::center;
-  const std::string unit = scale.unit.empty() ? "" : " (" + scale.unit + ")";
-  page.write(scale.name + unit + scale.note, x + width / 2, y, words);
+  page.write(title_of(scale), x + width / 2, y, words);
   const auto draw = scale.names.empty() ? draw_values : draw_names;
   draw(page, scale, x, y + line_height(style), width, words);
+}
+
+int color_bar_width(const ColorScale& scale, const TextStyle& style) {
+  int below = 0;  // with a letter's width between
+  if (scale.names.empty())
+    for (const std::string& number : numbers_of(scale))
+      below += text_width(number, style) + style.size;
+  for (const std::string& name : scale.names)
+    below = std::max(below,
+                     (text_width(name, style) + style.size) * static_cast<int>(scale.names.size()));
+  return std::max(below, text_width(title_of(scale), style));
 }
 
 int tripod_size(int width, int height) { return std::max(14, std::min(width, height) / 11); }

@@ -15,6 +15,8 @@ namespace sinew {
 void draw_color_bar(Canvas& page, const ColorScale& scale, int x, int y, int width,
                     const TextStyle& style);
 int color_bar_height(const TextStyle& style);
+/// Width that its words need, pixels.
+int color_bar_width(const ColorScale& scale, const TextStyle& style);
 
 /// Length of an axis that lies in the picture, for a panel of this size, pixels.
 int tripod_size(int width, int height);

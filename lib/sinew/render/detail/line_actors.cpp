@@ -65,9 +65,9 @@ void add_arrows(vtkRenderer& renderer, const Snapshot& snapshot, const ColorScal
   add_glyphs(renderer, data_of(snapshot.arrows, color));
 }
 
-void add_forces(vtkRenderer& renderer, const Snapshot& snapshot) {
-  const auto color = [](const SnapshotForce& force) {
-    return force.is_load ? palette::loaded : palette::held;
+void add_forces(vtkRenderer& renderer, const Snapshot& snapshot, const Paper& paper) {
+  const auto color = [&](const SnapshotForce& force) {
+    return readable_on(paper.background, force.is_load ? palette::loaded : palette::held);
   };
   add_glyphs(renderer, data_of(snapshot.forces, color));
 }

@@ -12,8 +12,8 @@
 #include <array>
 #include <vector>
 
+#include <sinew/core/color.h>
 #include <sinew/core/vector.h>
-#include <sinew/render/color.h>
 #include <sinew/render/shading.h>
 #include <sinew/render/snapshot.h>
 

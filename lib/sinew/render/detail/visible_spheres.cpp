@@ -26,45 +26,61 @@ class Front {
   }
 
   void add(const Vec3& center) {
-    for_each_cell(center, [&](std::size_t cell, double, double farthest) {
-      if (farthest > radius_ * radius_) return;
-      const double reach = center.z() + std::sqrt(radius_ * radius_ - farthest);
-      reach_[cell] = std::max(reach_[cell], static_cast<float>(reach));
-    });
+    const Cells cells = cells_of(center);
+    for (std::size_t y = 0; y < cells.y.count; ++y)
+      for (std::size_t x = 0; x < cells.x.count; ++x) {
+        const double farthest = cells.x.farthest[x] + cells.y.farthest[y];
+        if (farthest > radius_ * radius_) continue;
+        const double reach = center.z() + std::sqrt(radius_ * radius_ - farthest);
+        float& here = reach_[cells.place(x, y, wide_)];
+        here = std::max(here, static_cast<float>(reach));
+      }
   }
 
   bool hides(const Vec3& center) const {
     const double margin = 1e-3 * radius_;  // rounding, here and where it is drawn
-    bool hidden = true;
-    for_each_cell(center, [&](std::size_t cell, double nearest, double) {
-      if (nearest < radius_ * radius_ &&
-          reach_[cell] < center.z() + std::sqrt(radius_ * radius_ - nearest) + margin)
-        hidden = false;
-    });
-    return hidden;
+    const Cells cells = cells_of(center);
+    for (std::size_t y = 0; y < cells.y.count; ++y)
+      for (std::size_t x = 0; x < cells.x.count; ++x) {
+        const double nearest = cells.x.nearest[x] + cells.y.nearest[y];
+        if (nearest < radius_ * radius_ &&
+            reach_[cells.place(x, y, wide_)] <
+                center.z() + std::sqrt(radius_ * radius_ - nearest) + margin)
+          return false;
+      }
+    return true;
   }
 
  private:
-  /// Calls visit(cell, least and largest squared distance of the cell from the center).
-  template <class Visit>
-  void for_each_cell(const Vec3& center, const Visit& visit) const {
-    const Vec3 at = center - low_;
-    const auto cell = [&](double meters, std::size_t count) {
-      return std::min(static_cast<std::size_t>(std::max(0.0, meters / edge_)), count - 1);
-    };
-    const auto away = [&](std::size_t index, double place) {
-      const double from = static_cast<double>(index) * edge_ - place, to = from + edge_;
-      const double nearest = std::max({from, -to, 0.0}), farthest = std::max(-from, to);
-      return std::array<double, 2>{nearest * nearest, farthest * farthest};
-    };
-    const std::size_t right = cell(at.x() + radius_, wide_), top = cell(at.y() + radius_, high_);
-    for (std::size_t y = cell(at.y() - radius_, high_); y <= top; ++y) {
-      const auto along_y = away(y, at.y());
-      for (std::size_t x = cell(at.x() - radius_, wide_); x <= right; ++x) {
-        const auto along_x = away(x, at.x());
-        visit(y * wide_ + x, along_x[0] + along_y[0], along_x[1] + along_y[1]);
-      }
+  /// Cells that a sphere meets along one direction, with squared distances from its center.
+  struct Along {
+    std::size_t first = 0, count = 0;
+    std::array<double, 2 * static_cast<std::size_t>(cells_per_radius) + 2> nearest, farthest;
+  };
+  struct Cells {
+    Along x, y;
+    std::size_t place(std::size_t i, std::size_t j, std::size_t wide) const {
+      return (y.first + j) * wide + x.first + i;
     }
+  };
+
+  Along along(double place, std::size_t cells) const {
+    const auto cell = [&](double meters) {
+      return std::min(static_cast<std::size_t>(std::max(0.0, meters / edge_)), cells - 1);
+    };
+    Along out;
+    out.first = cell(place - radius_), out.count = cell(place + radius_) + 1 - out.first;
+    for (std::size_t i = 0; i < out.count; ++i) {
+      const double from = static_cast<double>(out.first + i) * edge_ - place, to = from + edge_;
+      const double nearest = std::max({from, -to, 0.0}), farthest = std::max(-from, to);
+      out.nearest[i] = nearest * nearest, out.farthest[i] = farthest * farthest;
+    }
+    return out;
+  }
+
+  Cells cells_of(const Vec3& center) const {
+    const Vec3 at = center - low_;
+    return {along(at.x(), wide_), along(at.y(), high_)};
   }
 
   double radius_, edge_ = 1;

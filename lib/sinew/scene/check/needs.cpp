@@ -10,6 +10,7 @@
 #include <sinew/core/arrays.h>
 #include <sinew/core/error.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/scene/frame_content.h>
 #include <sinew/scene/steps.h>
@@ -43,6 +44,9 @@ constexpr double memory_of_volume = 2000;
 // Bodies of 1e4 to 1e5 particles.
 constexpr double volume_cells_per_particle = 6.5, volume_points_per_particle = 1.35;
 constexpr double memory_per_point = 600, memory_beside = 60e6;
+
+// Lists are valid for all steps of a trial at rest; those of a deforming body must be rebuilt.
+constexpr double slower_with_lists_in_motion = 1.8;
 
 double memory_per_particle(const StepperChoice& choice, const Body& body) {
   if (choice.search == NeighborSearch::cells) return memory_with_cells;
@@ -129,6 +133,39 @@ Needs needs_of(const Prepared& prepared) {
   needs.memory = static_cast<std::uint64_t>(particles * per_particle + points * memory_per_point +
                                             memory_beside);
   return needs;
+}
+
+double speed_at_rest(Prepared prepared, std::vector<std::string>& warnings) {
+  const double usual = usual_speed(stepper_choice(prepared.settings.solver));
+  const auto particles = static_cast<double>(prepared.filled.particles.size());
+  prepared.motion = {};
+  Simulation simulation = start(std::move(prepared));
+  double spent = 0;
+  int steps = 0;
+  try {
+    simulation.step();
+    for (Stopwatch watch; steps < 20 && spent < 0.5; ++steps) {
+      simulation.step();
+      spent += watch.lap();
+    }
+  } catch (const Error& error) {
+    if (error.exit() != Exit::unstable) throw;
+    warnings.push_back(std::string("the body leaves its bones at once: ") + error.what());
+  }
+  return steps > 0 ? steps * particles / spent : usual;
+}
+
+double speed_in_motion(const Prepared& prepared, double at_rest) {
+  const bool lists_are_made_again =
+      stepper_choice(prepared.settings.solver).search == NeighborSearch::lists &&
+      !prepared.motion.tracks.empty();
+  return lists_are_made_again ? at_rest / slower_with_lists_in_motion : at_rest;
+}
+
+double seconds_of_showing(std::size_t points, int frames) {
+  constexpr double start = 2.5, per_frame = 0.04,
+                   per_point = 8e-6;  // s, within a third of six runs
+  return start + frames * (per_frame + per_point * static_cast<double>(points));
 }
 
 std::uint64_t free_space(const fs::path& folder) {

@@ -23,6 +23,16 @@ struct Needs {
 
 Needs needs_of(const Prepared& prepared);
 
+/// Particle-steps per second of the body at rest, measured within half a second; a typical value
+/// where the body becomes unstable, of which a line is added.
+double speed_at_rest(Prepared prepared, std::vector<std::string>& warnings);
+/// The same of a body that its bones deform.
+double speed_in_motion(const Prepared& prepared, double at_rest);
+
+/// Seconds that `sinew run` takes after its steps: for pictures, report and movie, on two cores.
+/// `points`: particles, and triangles of the surface.
+double seconds_of_showing(std::size_t points, int frames);
+
 /// Bytes a user may still write where `folder` is or will be.
 std::uint64_t free_space(const std::filesystem::path& folder);
 

@@ -38,9 +38,10 @@ struct Grip {
 };
 
 Vec3 resultant(const Load& load, const Points& rest) {
+  if (load.stiffness > 0) return Vec3::Zero();
   LoadNow now(load);
   now.find(
-      1, [&](std::size_t k) { return rest[load.particles[k]]; }, false);
+      {}, [&](std::size_t k) { return rest[load.particles[k]]; }, false);
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < load.particles.size(); ++k) sum += now.force(k);
   return sum.norm() > directed * now.size() ? sum : Vec3::Zero();
@@ -155,18 +156,23 @@ struct Worst {
   }
 };
 
-/// ": 6e+04 Pa, 40 % softer, of 11 planes across; CURE".
-std::string miss_text(const Body& body, const StiffnessAlong& worst, double shown) {
-  const double asked = body.material.young_modulus();
+/// "54 kPa, 46 % softer (70 kPa along it, less up to 23 % for 11 planes across); CURE".
+std::string miss_text(const Body& body, const StiffnessAlong& worst, double lack) {
+  const double asked = body.material.young_modulus(), shown = worst.young_modulus * (1 - lack);
   const bool isotropic = body.material.bond.second > 0;
-  return three_digits(shown) + " Pa, " + percent_text(std::abs(shown / asked - 1)) +
-         (shown < asked ? " softer" : " stiffer") + ", of " + three_digits(worst.planes) +
-         " planes across; make body.radius smaller" +
+  return quantity_text(shown, "Pa") + ", " + percent_text(std::abs(shown / asked - 1)) +
+         (shown < asked ? " softer (" : " stiffer (") +
+         parts_of_modulus(worst.young_modulus, lack, worst.planes) + "); make body.radius smaller" +
          (isotropic ? ""
                     : ", or use material.model bonded with fcc packing, which makes up for most");
 }
 
 }  // namespace
+
+std::string parts_of_modulus(double along, double lack, double planes) {
+  return quantity_text(along, "Pa") + " along it, less up to " + three_digits(100 * lack) +
+         " % for " + three_digits(planes) + " planes across";
+}
 
 double lack_of_pulled_stiffness(double planes, bool isotropic) {
   return std::min(1.0, (isotropic ? 0.3 : 1.4) / planes);
@@ -211,16 +217,16 @@ void warn_of_stiffness(const Prepared& prepared, std::vector<std::string>& warni
     warnings.push_back("bends along " + std::to_string(worst.count) + " of " +
                        std::to_string(bones.size()) + (bones.size() == 1 ? " bone" : " bones") +
                        " are over 10 % softer or stiffer than the modulus of " +
-                       three_digits(asked) + " Pa; most along '" + worst.one->bone +
-                       "': " + miss_text(body, *worst.one, bent(*worst.one)));
+                       quantity_text(asked, "Pa") + "; most along '" + worst.one->bone +
+                       "': " + miss_text(body, *worst.one, worst.one->lack));
   const auto shown = [](const SpanStiffness& span) { return span.shown_modulus(); };
   const auto spans = stiffness_between_grips(prepared);
   if (const Worst worst(spans, asked, shown); worst.count > 0)
     warnings.push_back(
         "the body " + std::string(worst.one->bends ? "bends" : "is pulled") + " between '" +
         worst.one->from + "' and '" + worst.one->to + "' with another modulus than the " +
-        three_digits(asked) +
-        " Pa that were asked for: " + miss_text(body, *worst.one, shown(*worst.one)));
+        quantity_text(asked, "Pa") +
+        " that were asked for: " + miss_text(body, *worst.one, worst.one->lack_shown()));
 }
 
 }  // namespace sinew

@@ -10,8 +10,12 @@
 #include <sinew/body/grouping.h>
 #include <sinew/body/solid.h>
 #include <sinew/core/particles.h>
+#include <sinew/core/system.h>
 #include <sinew/core/text.h>
 #include <sinew/rig/motion_checks.h>
+#include <sinew/scene/check/needs.h>
+#include <sinew/scene/check/stiffness.h>
+#include <sinew/scene/filling.h>
 #include <sinew/scene/rigid_parts.h>
 #include <sinew/world/world.h>
 
@@ -339,6 +343,14 @@ void warn_of_still_body(const Prepared& prepared, Warnings& warnings) {
       "motion.tracks to bones that hold particles");
 }
 
+void warn_of_memory(const Needs& needs, Warnings& warnings) {
+  const double available = available_memory(), needed = static_cast<double>(needs.memory);
+  if (needed > available)
+    warnings.push_back("the run needs about " + bytes_text(needed) + " of memory, " +
+                       bytes_text(available) +
+                       " are free: make body.radius larger, or use solver.precision single");
+}
+
 /// Where automatic creep cannot be as fast as the scene strains the body.
 void warn_of_flow(const Prepared& prepared, Warnings& warnings) {
   const double above = stress_above_yield(prepared);
@@ -389,6 +401,23 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
     warnings.push_back(note);
   warn_of_still_body(prepared, warnings);
   return warnings;
+}
+
+std::vector<std::string> warnings_before_trials(const Prepared& prepared, double bone_speed) {
+  Warnings warnings = warnings_of(prepared, bone_speed);
+  warn_of_stiffness(prepared, warnings);
+  warn_of_memory(needs_of(prepared), warnings);
+  for (std::string& warning : fill_warnings(prepared.filled))
+    warnings.push_back(std::move(warning));
+  shortest_first(warnings);
+  return warnings;
+}
+
+void shortest_first(Warnings& warnings) {
+  std::sort(warnings.begin(), warnings.end(), [](const std::string& a, const std::string& b) {
+    return std::pair(a.size(), std::string_view(a)) < std::pair(b.size(), std::string_view(b));
+  });
+  warnings.erase(std::unique(warnings.begin(), warnings.end()), warnings.end());
 }
 
 }  // namespace sinew

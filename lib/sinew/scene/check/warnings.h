@@ -15,6 +15,13 @@ namespace sinew {
 /// radii per step.
 std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed);
 
+/// The same with those of its stiffness, its filling and the memory that it needs: all that is
+/// known without a step.
+std::vector<std::string> warnings_before_trials(const Prepared& prepared, double bone_speed);
+
+/// Sorts warnings by their length, each once.
+void shortest_first(std::vector<std::string>& warnings);
+
 /// Adds a line where the body is one or two layers of particles thick, where limbs touch at rest
 /// across a gap of the mesh, and where limbs that do not belong together meet in the motion of a
 /// material that sticks to itself.

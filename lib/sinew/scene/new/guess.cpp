@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <sinew/core/text.h>
+#include <sinew/io/gltf/converted.h>
 
 namespace sinew {
 namespace {
@@ -19,8 +20,6 @@ constexpr double clearly = 2;       // times the size of another footprint
 std::string format_of(const std::filesystem::path& mesh) {
   return lower(mesh.extension().string());
 }
-
-bool is_gltf(const std::string& format) { return format == ".glb" || format == ".gltf"; }
 
 std::string long_text(double longest) { return "the mesh is " + three_digits(longest) + " long"; }
 
@@ -57,7 +56,9 @@ double footprint(const Points& points, const Box& box, int axis) {
 UnitGuess guess_unit(const std::filesystem::path& mesh, double longest) {
   const std::string format = format_of(mesh);
   const bool like_figure = longest >= shortest_figure_in_cm && longest <= longest_figure_in_cm;
-  if (is_gltf(format) && !like_figure) return {LengthUnit::m, "glTF is in meters"};
+  if (is_gltf(mesh) && !like_figure)
+    return {LengthUnit::m,
+            needs_blender(mesh) ? "Blender converts it to meters" : "glTF is in meters"};
   if (format == ".stl" && longest > longest_stl_in_m)
     return {LengthUnit::mm, long_text(longest) + ", and STL is mostly in millimeters"};
   if (longest <= longest_in_m) return {LengthUnit::m, long_text(longest) + ": meters fit"};
@@ -69,7 +70,8 @@ UnitGuess guess_unit(const std::filesystem::path& mesh, double longest) {
 UpGuess guess_up(const std::filesystem::path& mesh, const Points& points) {
   const std::string format = format_of(mesh);
   const Box box = bounds(points);
-  if (is_gltf(format)) return {Axis::y, "y is up in glTF"};
+  if (is_gltf(mesh))
+    return {Axis::y, needs_blender(mesh) ? "Blender converts it so" : "y is up in glTF"};
   if (stands(box, 2)) return {Axis::z, "the body stands on z = 0"};
   if (stands(box, 1)) return {Axis::y, "the body stands on y = 0"};
   const double by_y = footprint(points, box, 1), by_z = footprint(points, box, 2);

@@ -24,8 +24,9 @@
 namespace sinew {
 namespace {
 
-constexpr double min_inside = 0.5;  // fraction of the limbs' length, in the body
-constexpr double pictures = 24;     // per second
+constexpr double min_inside = 0.5;                    // fraction of the limbs' length, in the body
+constexpr double pictures = 24, quick_pictures = 10;  // per second
+constexpr double longest_quick = 2;                   // s
 // A body half a meter long that is as stiff as muscle follows its bones within the motion; speeds
 // of waves, and with them steps per second, go with the size.
 constexpr double usual_size = 0.5, usual_modulus = 10e3;
@@ -233,12 +234,20 @@ void choose_contacts(Settings& settings) {
   settings.contact.pass_through.automatic = true;
 }
 
+void shorten(NewChoices& choices) {
+  double& end = choices.settings.solver.duration;
+  if (choices.quick) end = std::min(end, longest_quick);
+  if (choices.duration) end = *choices.duration;
+}
+
 /// Moves joints that skin follows, where a rig has no clip, and chooses the radius by the work.
 void try_out(const Surface& surface, NewChoices& choices) {
   try {
+    shorten(choices);
     Prepared prepared = tried(surface, choices);
     if (!choices.settings.skeleton.file.empty() && !choices.settings.tracks.empty()) {
       bend_joints(prepared.body, choices);
+      shorten(choices);
       BodyFile filled = std::move(prepared.filled);
       prepared = tried(surface, choices, std::move(filled));
     }
@@ -253,7 +262,9 @@ NewScene new_scene(const NewSceneFiles& files) {
   NewChoices choices;
   Settings& settings = choices.settings;
   settings.body.mesh = files.mesh;
-  settings.output.interval = 1 / pictures;
+  choices.quick = files.quick, choices.clip = files.clip;
+  choices.count = files.count, choices.duration = files.duration;
+  settings.output.interval = 1 / (files.quick ? quick_pictures : pictures);
   const std::string rig = !files.rig.empty() ? files.rig : rig_within(files.mesh);
   Surface surface = files.figure == nullptr ? read_guessing(choices, files.up, rig.empty())
                                             : read_body_mesh(settings.body);
@@ -269,6 +280,7 @@ NewScene new_scene(const NewSceneFiles& files) {
     use_limbs(limbs, choices);
   else
     choices.hollow = false;
+  shorten(choices);
   choose_material(surface, choices);
   choose_binding(settings.binding, choices.hollow);
   try_out(surface, choices);
@@ -278,7 +290,7 @@ NewScene new_scene(const NewSceneFiles& files) {
   made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());
   made.unit = choices.unit, made.axes = choices.axes, made.holes = choices.holes;
   made.bones = choices.bones, made.pose = choices.pose, made.size = choices.size,
-  made.warning = warning;
+  made.warning = warning, made.time = choices.time;
   return made;
 }
 

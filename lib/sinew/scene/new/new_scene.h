@@ -37,6 +37,10 @@ struct NewSceneFiles {
   std::string scene;                ///< where it will be; paths in it are relative to its folder
   const RigBody* figure = nullptr;  ///< the mesh is its skin
   std::optional<Axis> up = {};      ///< up of the mesh; none: guessed
+  bool quick = false;               ///< runs in ten seconds or so, however coarse
+  std::string clip = {};            ///< a clip by its name; "": the first that moves
+  std::optional<int> count = {};    ///< particles; none: as many as a run may take
+  std::optional<double> duration = {};  ///< s; none: the clip, up to 3 s
 };
 
 struct NewScene {
@@ -46,6 +50,7 @@ struct NewScene {
   std::string pose;                     ///< why the rest pose is one of the clip; "": it is not
   std::string holes;                    ///< holes that are closed; "": none
   std::string warning;                  ///< warning of the mesh's reader; "": none
+  std::string time;                     ///< foreseen for a run on this machine; "": not known
 };
 
 /// A mesh whose triangles are too large to bend with the body is replaced by the same one in
@@ -64,6 +69,10 @@ struct NewSceneWish {
   bool force = false;                  ///< replace older files
   std::optional<PolygonSoup> polygons = {};
   std::optional<Axis> up = {};  ///< up of the mesh; none: guessed
+  bool quick = false;           ///< runs in ten seconds or so, however coarse
+  std::string clip = {};        ///< clip, count and duration as in NewSceneFiles
+  std::optional<int> count = {};
+  std::optional<double> duration = {};
 };
 
 struct WrittenScene {
@@ -112,6 +121,11 @@ struct NewChoices {
   bool hollow = false;                  ///< a shell, whose bones lie outside of it
   std::string holes = {};               ///< holes that are closed; "": none
   std::string changed = {};             ///< what the written mesh is; "": the given one
+  bool quick = false;                   ///< runs in ten seconds or so, however coarse
+  std::string clip = {};                ///< asked for; "": any
+  std::optional<int> count = {};        ///< particles asked for
+  std::optional<double> duration = {};  ///< asked for, s
+  std::string time = {};                ///< foreseen for a run on this machine; "": not known
 };
 
 /// The scene, as a file in `folder`.

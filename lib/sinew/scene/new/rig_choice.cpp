@@ -10,23 +10,23 @@
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
+#include <sinew/io/gltf/converted.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/rig/fit.h>
 #include <sinew/rig/motion.h>
 #include <sinew/rig/motion_checks.h>
 #include <sinew/rig/rest_at.h>
+#include <sinew/rig/retarget.h>
 #include <sinew/scene/first_pose.h>
 #include <sinew/scene/scene_files.h>
 
 namespace sinew {
 namespace {
 
-constexpr double min_fraction = 0.5;   // fraction of the bones in a mesh that is theirs
-constexpr double longest_clip = 3;     // s of the scene, for a first picture
-constexpr double min_wait = 0.1;       // s of a clip before its first key, to be left out
-constexpr double min_turn = pi / 180;  // rad, of a bone that a clip turns
-constexpr double min_travel = 1e-3;    // fraction of the skeleton's size, if a clip moves it
-constexpr double well_inside = 0.8;    // a fraction that no fit improves
+constexpr double min_fraction = 0.5;  // fraction of the bones in a mesh that is theirs
+constexpr double longest_clip = 3;    // s of the scene, for a first picture
+constexpr double min_wait = 0.1;      // s of a clip before its first key, to be left out
+constexpr double well_inside = 0.8;   // a fraction that no fit improves
 constexpr int places_per_bone = 5;
 
 struct Axes {
@@ -95,38 +95,15 @@ void fit_if_better(const Surface& surface, const Skeleton& skeleton, Settings& s
   placing.fraction = fraction;
 }
 
-/// Whether a value differs from key to key, rather than being one pose.
-template <typename Curve, typename Distance>
-bool changes(const Curve& curve, double threshold, Distance&& distance) {
-  return std::any_of(curve.values.begin(), curve.values.end(), [&](const auto& value) {
-    return distance(curve.values.front(), value) > threshold;
-  });
-}
-
-bool turns(const Clip& clip) {
-  return std::any_of(clip.motion.tracks.begin(), clip.motion.tracks.end(), [](const Track& track) {
-    return changes(track.rotation, min_turn,
-                   [](const Quat& a, const Quat& b) { return a.angularDistance(b); }) ||
-           changes(track.twist, min_turn, [](double a, double b) { return std::abs(a - b); });
-  });
-}
-
-bool travels(const Clip& clip, double threshold) {
-  return std::any_of(clip.motion.tracks.begin(), clip.motion.tracks.end(), [&](const Track& track) {
-    return changes(track.translation, threshold,
-                   [](const Vec3& a, const Vec3& b) { return (a - b).norm(); });
-  });
-}
-
 /// The first clip that turns bones, or else moves them; none where all clips are still poses.
 const Clip* moving_clip(const Rig& rig) {
-  const auto first = [&](const auto& moves) {
-    const auto found = std::find_if(rig.clips.begin(), rig.clips.end(), moves);
-    return found == rig.clips.end() ? nullptr : &*found;
-  };
-  if (const Clip* clip = first(turns)) return clip;
-  const double threshold = min_travel * bounds(rig.skeleton).diagonal().norm();
-  return first([&](const Clip& clip) { return travels(clip, threshold); });
+  const Clip* moving = nullptr;
+  for (const Clip& clip : rig.clips) {
+    const MovingBones bones = moving_bones(rig.skeleton, clip.motion);
+    if (!bones.turned.empty()) return &clip;
+    if (moving == nullptr && !bones.all.empty()) moving = &clip;
+  }
+  return moving;
 }
 
 void choose_clip(const Rig& rig, const Clip& clip, NewChoices& choices) {
@@ -169,19 +146,67 @@ void bend_ends(const Skeleton& skeleton, NewChoices& choices) {
 }
 
 void choose_motion(const Rig& rig, NewChoices& choices) {
-  if (const Clip* clip = moving_clip(rig))
+  const Clip* clip = choices.clip.empty() ? moving_clip(rig) : &find_clip(rig.clips, choices.clip);
+  if (clip != nullptr)
     choose_clip(rig, *clip, choices);
   else
     bend_ends(rig.skeleton, choices);
+}
+
+/// Clips of another file, whose joints have other names or another rest than the bones of a
+/// skeleton; none where too few of them have a counterpart.
+std::vector<Clip> retargeted_clips(const Skeleton& skeleton, const std::string& given,
+                                   Settings& settings) {
+  constexpr std::size_t fewest = 3;
+  const Skeleton joints = read_rig(given, {}).rig.skeleton;
+  settings.motion.names = matched_names(skeleton, joints);
+  const std::size_t matched = settings.motion.names.size();
+  if (matched >= fewest && 2 * matched >= std::min(skeleton.size(), joints.size()))
+    return read_rig_files(settings).motion.clips;
+  settings.motion.names.clear();
+  return {};
+}
+
+/// The mesh's own rig with the clips of another file where they move its bones, else the other rig.
+SkinnedRig with_clips_of(const std::string& own, const std::string& given, SkinnedRig rig,
+                         Settings& settings) {
+  settings.skeleton.file = own, settings.motion.file = given;
+  if (!is_gltf(given))
+    if (auto clips = retargeted_clips(rig.rig.skeleton, given, settings); !clips.empty()) {
+      rig.rig.clips = std::move(clips);
+      return rig;
+    }
+  const auto is_own = [&](const Bone& bone) {
+    return std::any_of(rig.rig.skeleton.bones.begin(), rig.rig.skeleton.bones.end(),
+                       [&](const Bone& one) { return one.name == bone.name; });
+  };
+  try {
+    Rig clips = read_rig_files(settings).motion;
+    const auto& bones = clips.skeleton.bones;
+    if (std::count_if(bones.begin(), bones.end(), is_own) * 2 >= std::ssize(bones)) {
+      rig.rig.clips = std::move(clips.clips);
+      return rig;
+    }
+  } catch (const Error&) {  // no bone has a name of the other file's
+  }
+  if (auto clips = retargeted_clips(rig.rig.skeleton, given, settings); !clips.empty()) {
+    rig.rig.clips = std::move(clips);
+    return rig;
+  }
+  settings.skeleton.file.clear(), settings.motion.file.clear();
+  return read_rig(given, {});
 }
 
 }  // namespace
 
 std::string rig_within(const std::string& mesh) { return holds_rig(mesh) ? mesh : ""; }
 
-Surface use_rig(const std::string& path, Surface surface, NewChoices& choices) {
+Surface use_rig(const std::string& given, Surface surface, NewChoices& choices) {
   Settings& settings = choices.settings;
-  const SkinnedRig rig = read_rig(path, {});
+  const std::string own = rig_within(settings.body.mesh);
+  SkinnedRig rig = read_rig(own.empty() ? given : own, {});
+  if (!own.empty() && own != given) rig = with_clips_of(own, given, std::move(rig), settings);
+  const std::string& path = settings.motion.file.empty() ? given : own;
   const Skeleton& skeleton = rig.rig.skeleton;
   const bool same = path == settings.body.mesh;
   Placing placing = same ? Placing{usual_axes[0], usual_axes[0], meters(settings.body.unit), 1}

@@ -15,6 +15,7 @@
 #include <sinew/fill/fill_limits.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/winding.h>
+#include <sinew/scene/check/needs.h>
 #include <sinew/scene/filling.h>
 #include <sinew/scene/rigid_parts.h>
 
@@ -31,6 +32,7 @@ constexpr double min_within = 0.1;      // fraction of the particles, with neigh
 // What a run may take: particles times steps, and particles. About as long as drawing it; and more
 // where limbs are thin, but for those that hold a twentieth of the body.
 constexpr double usual_work = 5e8, usual_particles = 1e5, largest_work = 2e9, max_particles = 3e5;
+constexpr double quick_work = 1.2e7, quick_particles = 5000;
 constexpr double min_across = 4, thin_volume = 0.05;
 constexpr double foreseen = 0.95;  // fraction of the work: a trial tells it nearly
 
@@ -91,8 +93,9 @@ bool too_coarse(const Particles& particles, std::size_t parts) {
 }
 
 /// Chooses by the thickness of limbs, within what a first picture needs and takes.
-double usual_radius(double inner, double volume) {
-  return three_figures(std::clamp(inner / usually_across, radius_for_count(volume, max_at_first),
+double usual_radius(double inner, double volume, bool quick) {
+  const double most = quick ? quick_particles : max_at_first;
+  return three_figures(std::clamp(inner / usually_across, radius_for_count(volume, most),
                                   radius_for_count(volume, fewest)));
 }
 
@@ -107,15 +110,20 @@ void choose_radius(const Surface& surface, const std::vector<Limb>& limbs, NewCh
   const std::size_t parts =
       static_cast<std::size_t>(std::max(limbs.back().body + 1, surface.components));
   choices.thickness = 2 * inner;
-  body.radius = usual_radius(inner, volume);
+  body.radius = usual_radius(inner, volume, choices.quick);
   Particles particles = fill_body(choices.settings, surface).particles;
   const double filled = static_cast<double>(particles.size()) * volume_per_particle(*body.radius);
   if (filled > 0 && filled < max_overlap * volume) {  // pieces lie within each other
-    body.radius = usual_radius(inner, filled);
+    body.radius = usual_radius(inner, filled, choices.quick);
     particles = fill_body(choices.settings, surface).particles;
   }
   while (too_coarse(particles, parts) && static_cast<double>(particles.size()) < max_if_split / 2) {
     body.radius = three_figures(0.8 * *body.radius);
+    particles = fill_body(choices.settings, surface).particles;
+  }
+  if (choices.count) {
+    body.radius = three_figures(*body.radius * std::cbrt(static_cast<double>(particles.size()) /
+                                                         static_cast<double>(*choices.count)));
     particles = fill_body(choices.settings, surface).particles;
   }
   choices.particles = particles.size();
@@ -187,7 +195,9 @@ Trial measured(const Prepared& prepared) {
 }
 
 /// The radius that the budget allows, by a trial with another one.
-double radius_by(const Trial& trial, double largest) {
+double radius_by(const Trial& trial, double largest, bool quick) {
+  if (quick)
+    return three_figures(std::min(largest, trial.for_at_most(quick_work, quick_particles)));
   const double usual = trial.for_at_most(usual_work, usual_particles);
   const double fine = trial.radius * trial.sure_across() / min_across;
   const double least = trial.for_at_most(largest_work, max_particles);
@@ -207,10 +217,18 @@ std::string size_text(const Trial& trial) {
 
 void use_budget(const Prepared& first, NewChoices& choices) {
   double& radius = *choices.settings.body.radius;
-  const Trial tried = measured(first), trial = tried.with(radius_by(tried, radius));
+  const Trial tried = measured(first);
+  const Trial trial = tried.with(choices.count ? radius : radius_by(tried, radius, choices.quick));
   radius = trial.radius;
   choices.particles = static_cast<std::size_t>(trial.particles);
   choices.size = size_text(trial);
+  std::vector<std::string> warnings;  // which check tells
+  const double stepping = trial.work / speed_in_motion(first, speed_at_rest(first, warnings));
+  const double all =
+      stepping + seconds_of_showing(choices.particles + first.surface.triangles.faces.size(),
+                                    first.frames.count + 1);
+  choices.time = "about " + three_digits(std::ceil(all)) + " s for a run on this machine, " +
+                 three_digits(stepping) + " s of them steps";
 }
 
 }  // namespace sinew

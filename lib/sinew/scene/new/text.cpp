@@ -107,7 +107,7 @@ std::string track_text(const TrackDefinition& track) {
   return text;
 }
 
-std::string clip_text(const NewChoices& choices) {
+std::string clip_text(const NewChoices& choices, const std::filesystem::path& folder) {
   const Settings& s = choices.settings;
   std::string text;
   if (!choices.clip_note.empty()) text += note(choices.clip_note);
@@ -115,7 +115,13 @@ std::string clip_text(const NewChoices& choices) {
     const std::vector<std::string_view> others(choices.clips.begin(), choices.clips.end());
     text += note("The file also holds: " + listed(others) + '.');
   }
+  if (!s.motion.file.empty()) text += "  file: " + quoted(path_in(folder, s.motion.file)) + '\n';
   if (!s.motion.clip.empty()) text += key_text(s, "motion", "clip");
+  if (!s.motion.names.empty()) {
+    text += note("Which joint of the clip moves which bone: [bone, joint].") + "  names:\n";
+    for (const auto& [bone, joint] : s.motion.names)
+      text += "    - [" + quoted(bone) + ", " + quoted(joint) + "]\n";
+  }
   if (s.motion.start > 0) text += key_text(s, "motion", "start");
   if (s.motion.begin == Begin::automatic)
     text += note(
@@ -125,9 +131,9 @@ std::string clip_text(const NewChoices& choices) {
   return text.empty() ? "" : "\nmotion:\n" + text;
 }
 
-std::string motion_text(const NewChoices& choices) {
+std::string motion_text(const NewChoices& choices, const std::filesystem::path& folder) {
   const Settings& s = choices.settings;
-  if (s.tracks.empty()) return clip_text(choices);
+  if (s.tracks.empty()) return clip_text(choices, folder);
   std::string text =
       "\nmotion:\n" +
       note("Limbs bend and go back: angles in degrees from rest, times in seconds.") +
@@ -172,9 +178,11 @@ std::string binding_text(const NewChoices& choices) {
 std::string new_scene_text(const NewChoices& choices, const std::filesystem::path& folder) {
   const Settings& s = choices.settings;
   const int pictures = static_cast<int>(std::lround(1 / s.output.interval));
-  std::string text = "# Made by sinew new. Lengths in meters, times in seconds; z points up.\n\n";
+  std::string text = "# Made by sinew new. Lengths in meters, times in seconds; z points up.\n";
+  if (choices.quick) text += "# By --quick: few particles, few pictures, 2 s at most.\n";
+  text += '\n';
   text += body_text(choices, folder) + material_text(choices) + skeleton_text(choices, folder) +
-          motion_text(choices) + binding_text(choices);
+          motion_text(choices, folder) + binding_text(choices);
   text += "\nsolver:\n" + key_text(s, "solver", "duration");
   text +=
       note("No gravity, so that the body moves by its bones alone; [0, 0, -9.81] is the Earth's.");

@@ -47,7 +47,8 @@ void write_missing_mesh(const NewSceneWish& wish, NewSceneFiles& files, RigBody&
 
 WrittenScene write_new_scene(const NewSceneWish& wish) {
   NewSceneFiles files{wish.mesh, wish.rig, scene_path(wish)};
-  files.up = wish.up;
+  files.up = wish.up, files.quick = wish.quick;
+  files.clip = wish.clip, files.count = wish.count, files.duration = wish.duration;
   RigBody figure;
   write_missing_mesh(wish, files, figure);
   WrittenScene written{files.scene, "", new_scene(files)};

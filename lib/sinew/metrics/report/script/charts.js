@@ -99,15 +99,25 @@ function tickText(value, _, ticks) {
   return text.replaceAll("-", "−");
 }
 
-const plainScale = (text) => ({ ticks: { maxTicksLimit: 6, maxRotation: 0, includeBounds: false,
-  callback: tickText }, title: { display: Boolean(text), text } });
+/** size: the factor of the unit's prefix, by which values are divided. */
+const plainScale = (text, size = 1) => ({ ticks: { maxTicksLimit: 6, maxRotation: 0, includeBounds: false,
+  callback: (value, k, ticks) => tickText(value / size, k, ticks.map((tick) => ({ value: tick.value / size }))) },
+  title: { display: Boolean(text), text } });
+
+const valuesOf = (chart) => chart.lines.flatMap((line) => line.points.map((point) => point[1]))
+  .filter((value) => value !== null);
+
+/** The scale of a chart's values, in the unit in which its largest takes few digits. */
+function valueScale(chart) {
+  const [prefix, size] = prefixOf(Math.max(0, ...valuesOf(chart).map(Math.abs)), chart.unit);
+  return plainScale(chart.unit && `in ${prefix}${chart.unit}`, size);
+}
 
 const leastSpan = 1e-3; // of the values' size: below it a line is flat, not noise
 
 /** Limits that the scale always includes: the baselines, and a margin around a flat line. */
 function shownEnds(chart) {
-  const values = chart.lines.flatMap((line) => line.points.map((point) => point[1]))
-    .filter((value) => value !== null).concat(chart.baselines);
+  const values = valuesOf(chart).concat(chart.baselines);
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const [middle, size] = [(low + high) / 2, Math.max(Math.abs(low), Math.abs(high))];
   const range = Math.max(high - low, leastSpan * size), half = range / 2;
@@ -126,7 +136,7 @@ function angleScale() {
 
 function timeScales(chart, [low, high]) {
   const scales = data.angles.length ? { angle: angleScale() } : {};
-  scales.y = { ...plainScale(chart.unit && `in ${chart.unit}`), ...shownEnds(chart), axis: "y", position: "left",
+  scales.y = { ...valueScale(chart), ...shownEnds(chart), axis: "y", position: "left",
     stack: "all", stackWeight: 5 };
   scales.x = { ...plainScale("time (s)"), type: "linear", min: low, max: high };
   return scales;
@@ -134,7 +144,8 @@ function timeScales(chart, [low, high]) {
 
 const asListed = (one, other) => one.datasetIndex - other.datasetIndex;
 
-function options(scales, unit) {
+/** unit: of what is across; valueUnit: of the values. */
+function options(scales, unit, valueUnit = "") {
   return { animation: false, maintainAspectRatio: false, normalized: true, scales,
     interaction: { mode: "nearest", axis: "x", intersect: false },
     plugins: {
@@ -142,8 +153,8 @@ function options(scales, unit) {
         sort: asListed } },
       tooltip: { boxPadding: 4, itemSort: asListed, callbacks: {
         title: (items) => (items.length ? `${readable(items[0].parsed.x)} ${unit}` : ""),
-        label: ({ dataset, parsed }) => ` ${dataset.label}: ${readable(parsed.y)}` +
-          (dataset.yAxisID === "angle" ? "°" : ""),
+        label: ({ dataset, parsed }) => ` ${dataset.label}: ` + (dataset.yAxisID === "angle"
+          ? `${readable(parsed.y)}°` : quantityText(parsed.y, valueUnit)),
       } },
     } };
 }
@@ -167,7 +178,7 @@ function wholeTime(chart) {
 function timeChart(plan) {
   const whole = wholeTime(plan);
   const datasets = plan.lines.map(lineSet);
-  const settings = options(timeScales(plan, whole), "s");
+  const settings = options(timeScales(plan, whole), "s", plan.unit ?? "");
   settings.plugins.legend.labels.filter = (item) => item.text !== "bones";
   if (data.angles.length) datasets.push(angleSet());
   const chart = new Chart(canvasIn(byId(plan.folded ? "quiet-charts" : "charts"), plan),
@@ -197,12 +208,15 @@ function drawCharts() {
   const { defaults } = Chart;
   Object.assign(defaults, { color: colorOf("--ink"), borderColor: colorOf("--rule") });
   defaults.font.family = getComputedStyle(document.body).fontFamily;
-  byId("quiet").hidden = !data.charts.some((chart) => chart.folded);
-  byId("quiet").open = true; // a chart that is drawn while it is folded has no size
+  const quiet = byId("quiet"); // none on a page without charts over time
+  if (quiet) {
+    quiet.hidden = !data.charts.some((chart) => chart.folded);
+    quiet.open = true; // a chart that is drawn while it is folded has no size
+  }
   const charts = [...data.charts.map(timeChart), ...data.curves.map(curveChart)];
   const machine = machineChart();
   if (machine) charts.push(machine);
-  byId("quiet").open = false;
+  if (quiet) quiet.open = false;
   followPrinting(charts);
   return charts;
 }

@@ -33,6 +33,7 @@ function unpackedPlayback(playback) {
     corners: new Uint32Array(bytesOf(playback.corners).buffer),
     held: new Uint32Array(bytesOf(playback.held).buffer),
     obstacles: repeated(playback.obstacles, places),
+    levelColors: levelColorsOf(playback.colors),
     fields: playback.fields.map((field) => ({ ...field, levels: bytesOf(field.levels) })),
   };
 }
@@ -43,6 +44,20 @@ function readable(value) {
   const number = Number(value.toPrecision(4)), size = Math.abs(number);
   const plain = number === 0 || (size >= 1e-4 && size < 1e6);
   return (plain ? String(number) : number.toExponential()).replaceAll("-", "−").replace("+", "");
+}
+
+/** The prefix of the SI and the factor with which a number of that size is written in few digits. */
+function prefixOf(value, unit) {
+  const size = Math.abs(value) * 1.0005; // 999.7 is 1.00 of the next
+  if (value === null || !Number.isFinite(size) || !["Pa", "N", "J", "W", "m", "s", "m/s"].includes(unit) || size === 0 || (size >= 0.01 && size < 1000)) return ["", 1];
+  const power = Math.min(4, Math.max(-4, Math.floor(Math.log10(size) / 3)));
+  return [power < 0 ? "mµnp"[-power - 1] : ["", "k", "M", "G", "T"][power], 1000 ** power];
+}
+
+/** "2.37 kPa" */
+function quantityText(value, unit) {
+  const [prefix, size] = prefixOf(value, unit);
+  return value === null ? readable(value) : `${readable(value / size)} ${prefix}${unit}`.trim();
 }
 
 // Okabe and Ito's colors, which color-blind readers can distinguish; the pale ones last.

@@ -13,6 +13,7 @@ function sayWithout(reason) {
 function begin() {
   document.documentElement.classList.add("scripted");
   const charts = drawCharts();
+  makeSortable();
   let playback = null;
   if (byId("playback"))
     try {
@@ -39,6 +40,8 @@ function begin() {
     legend: [...byId("bone-names")?.children ?? []].map((entry) => entry.textContent),
     places: playback ? [...playback.view.spheres.geometry.attributes.position.array] : [],
     tints: playback ? [...playback.view.spheres.geometry.attributes.tint.array] : [],
+    skin: playback ? [...playback.view.skin.geometry.attributes.color.array] : [],
+    corners: playback?.view.skin.geometry.index.count ?? 0,
     triangles: playback?.view.renderer.info.render.triangles ?? 0,
     points: playback?.view.renderer.info.render.points ?? 0,
   });

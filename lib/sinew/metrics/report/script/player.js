@@ -33,18 +33,19 @@ function showNames(category) {
 }
 
 /** The color scale with the values at its ends, and which percentiles these are. */
-function showScale({ field, category }, percentiles) {
+function showScale({ field, category }, { percentiles, colors }) {
   byId("bone-names").hidden = !category;
   if (category) showNames(category);
   const [low, bar, high, ends] = byId("scale").children;
   byId("scale").hidden = !field;
   if (!field) return;
-  const stops = viridis.map((color) => `rgb(${color.join(" ")})`).join(", ");
+  const stops = colors.map((color) => `rgb(${color.join(" ")})`).join(", ");
   bar.style.background = `linear-gradient(90deg, ${stops})`;
-  low.textContent = readable(field.low);
-  high.textContent = `${readable(field.high)} ${field.unit}`.trim();
+  const [prefix, size] = prefixOf(Math.max(Math.abs(field.low), Math.abs(field.high)), field.unit);
+  low.textContent = readable(field.low / size);
+  high.textContent = `${readable(field.high / size)} ${prefix}${field.unit}`.trim();
   const [first, last] = percentiles.map(readable);
-  ends.textContent = `(${first}st to ${last}th percentile)`;
+  ends.textContent = `(${first}th to ${last}th percentile)`;
   byId("scale").title = field.help;
 }
 
@@ -76,13 +77,16 @@ function makePlayer(view) {
     const { frame, time } = playback.snapshots[player.snapshot];
     byId("time").value = player.snapshot;
     byId("clock").textContent = `${time.toFixed(3)} s · frame ${frame}`;
-    view.spheres.visible = byId("show-particles").checked;
+    const cut = byId("cut").checked;
+    view.spheres.visible = byId("show-particles").checked || cut;
     view.skin.visible = byId("show-surface").checked;
+    byId("has-held").hidden = playback.held.length === 0 || !view.spheres.visible || colored().field !== null;
+    dress(view, { cut, sheer: byId("show-particles").checked && !cut });
     view.obstacles.visible = byId("show-obstacles").checked;
-    for (const bone of view.bones) bone.visible = byId("show-bones").checked;
+    view.bones.forEach((bone, k) => { bone.visible = byId("show-bones").checked && !(cut && isBoneGone(view, k)); });
     for (const force of view.forces) force.visible = byId("show-forces").checked;
-    showScale(colored(), playback.percentiles);
-    showSnapshot(view, { snapshot: player.snapshot, cut: byId("cut").checked, ...colored() });
+    showScale(colored(), playback);
+    showSnapshot(view, { snapshot: player.snapshot, cut, ...colored() });
     markTime(time);
   };
   player.go = (snapshot) => {
@@ -98,13 +102,13 @@ function mostDeformed(playback) {
   return worst ? nearestSnapshot(playback, (one) => Math.abs(one.frame - worst.frame)) : 0;
 }
 
-/** What is seen first: the largest deformation in color, the skin on, and the motion playing slowly
- * unless the reader wants none. */
+/** What is seen first: the skin in the colors of the largest strain, and the motion playing unless the
+ * reader wants none. */
 function begin3D(player, playback) {
   const strain = playback.fields.findIndex(({ name }) => name === "strain");
   if (strain >= 0) byId("field").value = String(strain);
-  byId("show-surface").checked = true;
-  byId("show-particles").checked = strain >= 0;
+  byId("show-surface").checked = playback.corners.length > 0;
+  byId("show-particles").checked = playback.corners.length === 0;
   player.go(mostDeformed(playback));
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches || playback.snapshots.length < 2;
   if (!still) play(player, playback);
@@ -136,7 +140,6 @@ function connect(player, view) {
   const goTo = (snapshot) => seek(player, playback, snapshot);
   byId("has-bones").hidden = playback.boneNames.length === 0;
   for (const part of ["has-forces", "force-names"]) byId(part).hidden = playback.isLoad.length === 0;
-  byId("has-held").hidden = playback.held.length === 0;
   byId("has-obstacles").hidden = playback.obstacles.every((corners) => corners.length === 0);
   byId("time").max = playback.snapshots.length - 1;
   byId("time").addEventListener("input", () => goTo(Number(byId("time").value)));

@@ -51,19 +51,15 @@ function makeSpheres(balls) {
   return spheres;
 }
 
-// Viridis (van der Walt and Smith), perceptually uniform, at nine places.
-const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141],
-  [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
 const nameColors = palette.map((color) => [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16)));
 const noColor = [150, 150, 150];
-const [heldColor, loadColor] = [[30, 34, 40], [134, 72, 178]]; // as in the pictures
+const [heldColor, loadColor] = [[30, 34, 40], [134, 72, 178]]; // of what is held, where names are colors, and of forces
 
-/** The color at a fraction between 0 and 1, 0 to 255 each. */
-function viridisAt(share) {
-  const at = Math.min(Math.max(share, 0), 1) * (viridis.length - 1);
-  const low = Math.min(Math.floor(at), viridis.length - 2);
-  return viridis[low].map((c, k) => c + (at - low) * (viridis[low + 1][k] - c));
+/** Colors of levels 0 to 254 of a range, between those of the pictures, 0 to 255 each; 255 is no value. */
+function levelColorsOf(colors) {
+  return Array.from({ length: 256 }, (_, level) => {
+    if (level === 255) return noColor;
+    const at = level / 254 * (colors.length - 1), low = Math.min(Math.floor(at), colors.length - 2);
+    return colors[low].map((c, k) => c + (at - low) * (colors[low + 1][k] - c));
+  });
 }
-
-const levelColors = Array.from({ length: 256 }, (_, level) =>
-  level === 255 ? noColor : viridisAt(level / 254));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sinew/render/color.h>
+#include <sinew/core/color.h>
 
 #include <algorithm>
 #include <charconv>
@@ -75,15 +75,15 @@ ColorTable make_table(ColorMap map) {
   std::vector<double> length(stops.size(), 0);
   for (std::size_t i = 1; i < stops.size(); ++i)
     length[i] = length[i - 1] + (oklab(stops[i]) - oklab(stops[i - 1])).norm();
-  ColorTable table;
+  ColorTable shades;
   for (int k = 0; k < steps; ++k) {
     const double walked = length.back() * k / (steps - 1);
     std::size_t i = 1;
     while (i + 1 < stops.size() && length[i] < walked) ++i;
     const double part = (walked - length[i - 1]) / (length[i] - length[i - 1]);
-    table[k] = from_oklab(oklab(stops[i - 1]) * (1 - part) + oklab(stops[i]) * part);
+    shades[k] = from_oklab(oklab(stops[i - 1]) * (1 - part) + oklab(stops[i]) * part);
   }
-  return table;
+  return shades;
 }
 
 constexpr std::array<NamedColorMap, 7> names = {{{"indigo", ColorMap::indigo},
@@ -110,6 +110,15 @@ Paper paper_of(const Color& background) {
   constexpr double middle = 0.6;  // fraction of the lightness
   constexpr Color light_ink{236, 239, 243};
   return {background, oklab(background)[0] > middle ? palette::ink : light_ink};
+}
+
+Color readable_on(const Color& background, const Color& color) {
+  constexpr double enough = 0.3, apart = 0.5, middle = 0.6;  // lightnesses
+  const double behind = oklab(background)[0];
+  Vec3 lab = oklab(color);
+  if (std::abs(lab[0] - behind) >= enough) return color;
+  lab[0] = behind > middle ? std::max(0.0, behind - apart) : std::min(1.0, behind + apart);
+  return from_oklab(lab);
 }
 
 std::span<const NamedColor> named_colors() {
@@ -148,10 +157,10 @@ Vec3 oklab(const Color& color) {
 std::span<const NamedColorMap> color_maps() { return names; }
 
 Color mapped_color(double position, ColorMap map) {
-  const ColorTable& table = table_of(map);
+  const ColorTable& shades = table_of(map);
   if (std::isnan(position)) return palette::no_value;
-  if (position < 0) return table.front();
-  return table[static_cast<int>(std::lround(std::min(position, 1.0) * (steps - 1)))];
+  if (position < 0) return shades.front();
+  return shades[static_cast<int>(std::lround(std::min(position, 1.0) * (steps - 1)))];
 }
 
 }  // namespace sinew

@@ -46,6 +46,9 @@ struct Paper {
 /// Ink that is read on this background: dark or light.
 Paper paper_of(const Color& background);
 
+/// The color, lighter or darker where it would not stand out from the background.
+Color readable_on(const Color& background, const Color& color);
+
 /// A color that pages know by a name, as "white".
 struct NamedColor {
   std::string_view name;
