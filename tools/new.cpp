@@ -159,6 +159,7 @@ Exit make(Options options, const Common& common) {
   results.add("unit", scene.unit);
   results.add("up", scene.axes);
   if (!scene.holes.empty()) results.add("holes", scene.holes);
+  if (!scene.materials.empty()) results.add("materials", scene.materials);
   results.add("bones", scene.bones);
   if (!scene.pose.empty()) results.add("rest", scene.pose);
   results.add("size", scene.size);

@@ -89,6 +89,7 @@ TEST(SettingsTable, EveryRowGetsAndSetsItsOwnMember) {
   expect_round_trips(key_fields());
   expect_round_trips(obstacle_fields());
   expect_round_trips(place_key_fields());
+  expect_round_trips(friction_key_fields());
   expect_round_trips(pin_fields());
   expect_round_trips(field_fields());
   expect_round_trips(strength_fields());
@@ -106,6 +107,7 @@ TEST(SettingsTable, IsWellFormed) {
   expect_well_formed(key_fields());
   expect_well_formed(obstacle_fields());
   expect_well_formed(place_key_fields());
+  expect_well_formed(friction_key_fields());
   expect_well_formed(pin_fields());
   expect_well_formed(field_fields());
   expect_well_formed(strength_fields());

@@ -144,6 +144,44 @@ def gltf_binary(data, document):
     return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
 
 
+def gltf_skin():
+    """With two joints, of which one is turned by a clip."""
+    data, document = gltf_parts()
+    identity = [float(i % 5 == 0) for i in range(16)]
+    attributes = document["meshes"][0]["primitives"][0]["attributes"]
+
+    def accessor(content, component, count, kind, **more):
+        nonlocal data
+        document["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(content)})
+        document["accessors"].append({"bufferView": len(document["bufferViews"]) - 1, "componentType": component,
+                                      "count": count, "type": kind, **more})
+        data += content
+        return len(document["accessors"]) - 1
+
+    attributes["JOINTS_0"] = accessor(struct.pack("<16H", *4 * [0, 1, 0, 0]), 5123, 4, "VEC4")
+    attributes["WEIGHTS_0"] = accessor(struct.pack("<16f", *4 * [0.75, 0.25, 0, 0]), 5126, 4, "VEC4")
+    bind = accessor(struct.pack("<32f", *2 * identity), 5126, 2, "MAT4")
+    times = accessor(struct.pack("<2f", 0, 1), 5126, 2, "SCALAR", min=[0], max=[1])
+    turns = accessor(struct.pack("<8f", 0, 0, 0, 1, 0, 0, 0.6, 0.8), 5126, 2, "VEC4")
+    document["nodes"] = [{"mesh": 0, "skin": 0}, {"name": "a", "children": [2]}, {"name": "b", "translation": [0, 1, 0]}]
+    document |= {"scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1, 2], "inverseBindMatrices": bind}],
+                 "animations": [{"samplers": [{"input": times, "output": turns}],
+                                 "channels": [{"sampler": 0, "target": {"node": 2, "path": "rotation"}}]}],
+                 "buffers": [{"byteLength": len(data)}]}
+    return data, document
+
+
+PACKERS = {"quantized": ["gltfpack", "-kn"], "meshopt": ["gltfpack", "-c", "-kn"], "draco": ["draco_transcoder"]}
+
+
+def packed(glb, program, *options):
+    with tempfile.TemporaryDirectory() as temporary:
+        plain, result = Path(temporary) / "plain.glb", Path(temporary) / "packed.glb"
+        plain.write_bytes(glb)
+        subprocess.run([program, "-i", plain, "-o", result, *options], check=True, stdout=subprocess.DEVNULL)
+        return result.read_bytes()
+
+
 def vtk_array(name, kind, values, components=1):
     return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">' +
             " ".join("%g" % value for value in values) + "</DataArray>")
@@ -166,7 +204,8 @@ def vtk_files():
     yield "polygons.vtk", (text.format("3.0", "ASCII", "POLYDATA") + f"POINTS 4 float\n{places}\nMETADATA\n\n"
                            f"POLYGONS 4 16\n{polygons}TRIANGLE_STRIPS 1 5\n4 0 1 2 3\nPOINT_DATA 4\n").encode()
     yield "cells.vtk", (text.format("5.1", "ASCII", "UNSTRUCTURED_GRID") + f"POINTS 4 double\n{places}\nCELLS 2 4\n"
-                        "OFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nCELL_TYPES 1\n10\n").encode()
+                        "OFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nCELL_TYPES 1\n10\nCELL_DATA 1\n"
+                        "SCALARS MaterialIds int 1\nLOOKUP_TABLE default\n7\n").encode()
     yield "binary.vtk", (text.format("4.2", "BINARY", "UNSTRUCTURED_GRID") + "POINTS 4 float\n").encode() + struct.pack(
         ">12f", *flat) + b"\nCELLS 1 5\n" + struct.pack(">5i", 4, 0, 1, 2, 3) + b"\nCELL_TYPES 1\n" + struct.pack(">i", 10)
     image = text.format("3.0", "ASCII", "STRUCTURED_POINTS") + "DIMENSIONS 3 3 3\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 27\n"
@@ -254,6 +293,9 @@ def main():
     put("gltf", "embedded.gltf", gltf_text())
     put("gltf", "binary.glb", gltf_binary(*gltf_parts()))
     put("gltf", "looks.glb", gltf_binary(*gltf_looks()))
+    put("gltf", "skin.glb", gltf_binary(*gltf_skin()))
+    for name, command in PACKERS.items():
+        put("gltf", f"{name}.glb", packed(gltf_binary(*gltf_skin()), *command))
     for name, content in vtk_files():
         put("vtk", name, content)
     for name, kind in ("hexahedron8", 1), ("hexahedron20", 4), ("tetrahedron4", 3), ("tetrahedron10", 6):

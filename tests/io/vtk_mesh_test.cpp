@@ -9,6 +9,7 @@
 
 #include <sinew/core/triangles.h>
 #include <sinew/io/vtk/detail/grids.h>
+#include <sinew/mesh/mesh_formats.h>
 #include "mesh/shapes.h"
 #include "support/expect_error.h"
 #include "support/scratch.h"
@@ -168,6 +169,34 @@ TEST_F(VtkMesh, ImagesWithoutANegativeSideHaveTheirSurfaceHalfway) {
   EXPECT_NE(read.warning.find("the surface is halfway, at 4"), std::string::npos) << read.warning;
 }
 
+/// Linear along the radius: the ball at level v has the radius 1 - v / 1000.
+TEST_F(VtkMesh, ImagesHaveTheirSurfaceAtTheLevelGiven) {
+  const auto density = [](const Vec3& at) { return 1000 * std::max(0.0, 1 - at.norm()); };
+  soup("a.vti", image(40, density));
+  for (const double level : {200.0, 400.0, 700.0}) {
+    const PolygonSoup read = read_vtk_mesh(folder / "a.vti", level);
+    const double radius = std::cbrt(volume(triangles_of(read)) * 3 / (4 * pi));
+    EXPECT_NEAR(radius, 1 - level / 1000, 0.02) << level;
+    EXPECT_EQ(read.warning, "");
+  }
+  // values of both signs
+  soup("b.vti", image(40, ball));
+  const double radius =
+      std::cbrt(volume(triangles_of(read_vtk_mesh(folder / "b.vti", -0.25))) * 3 / (4 * pi));
+  EXPECT_NEAR(radius, 0.55, 0.02);
+  test::expect_bad_input([&] { read_vtk_mesh(folder / "a.vti", 2000); },
+                         {"level of 2000", "from 0 to", "between them"});
+}
+
+TEST_F(VtkMesh, LevelsAreOfImagesAlone) {
+  soup("a.vtk", tetrahedra());
+  test::expect_bad_input([&] { read_vtk_mesh(folder / "a.vtk", 0.5); },
+                         {"no image", "leave out body.level"});
+  put(folder / "a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  test::expect_bad_input([&] { read_polygons((folder / "a.off").string(), {}, 0.5); },
+                         {"no image", "leave out body.level"});
+}
+
 TEST_F(VtkMesh, LegacyImagesAreLevelSets) {
   const std::string head =
       "DATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 3\nORIGIN 0 0 0\nSPACING 1 1 2\nPOINT_DATA 27\n";
@@ -278,7 +307,7 @@ TEST_F(VtkMesh, SurfacesOfNoiseAreRefusedBeforeTheyAreMade) {
     for (int y = 0; y < 100; ++y)
       for (int x = 0; x < 100; ++x) image.values.push_back((x + y + z) % 2 == 0 ? 1 : -1);
   const double raised = raised_memory([&] {
-    test::expect_bad_input([&] { zero_level(image); }, {"as of noise", "smooth"});
+    test::expect_bad_input([&] { level_surface(image, {}); }, {"as of noise", "smooth"});
   });
   EXPECT_LT(raised, 20e6);
 }

@@ -165,6 +165,33 @@ TEST(SessionsWithoutBones, ArePulled) {
   EXPECT_EQ(parsed_json<nlohmann::json>(run.record)["state_hash"], session.hash());
 }
 
+/// On a floor that tilts its weight, a body slides away once the floor has become smooth.
+TEST(SessionsOnAFloor, ChangeItsFriction) {
+  const TempFolder folder;
+  const std::string text = "body: {mesh: " + test::source_dir() +
+                           "/data/meshes/box.obj, radius: 0.03}\nmaterial: {model: bonded}\n"
+                           "solver: {gravity: [-9, 0, 3]}\nworld: {obstacles: [{name: floor, "
+                           "shape: plane, friction: 0.8, "
+                           "point: [-0.06, 0, 0], normal: [1, 0, 0]}]}\n";
+  Session session(scene_from_text(text, "scene.yaml", folder.path()), {folder.path()});
+  const auto speed = [&] {
+    const Particles& all = session.simulation().particles();
+    double sum = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) sum += all.velocity(i).z();
+    return sum / static_cast<double>(all.size());
+  };
+  for (int k = 0; k < 30; ++k) session.advance();
+  const double held = speed();
+  session.knobs().set("friction of floor", 0);
+  EXPECT_THROW(session.knobs().set("friction of floor", -1), Error);
+  for (int k = 0; k < 30; ++k) session.advance();
+  const double free = speed() - held, passed = 28 * session.grid().interval();
+  EXPECT_LT(std::abs(held), 0.1);
+  EXPECT_NEAR(free, 3 * passed, 0.1 * 3 * passed);  // as it falls along the floor
+  const RunResult run = simulate(read_scene(session.save("smooth")), {folder.path() / "run"});
+  EXPECT_EQ(parsed_json<nlohmann::json>(run.record)["state_hash"], session.hash());
+}
+
 /// Each bone ends where it was to go, no faster than it may, and turns by more than half a turn.
 TEST(Hands, TurnAsFarAsAskedAndNoFaster) {
   const std::vector<BoneDefinition> two = {{"a", "", Vec3(0, 0, 0), Vec3(0, 0, 1)},

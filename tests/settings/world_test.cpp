@@ -18,6 +18,11 @@ const std::string everything = R"(world:
     - name: floor
       shape: plane
       friction: 0.4
+      friction_keys:
+        - time: 0
+          factor: 1
+        - time: 2
+          factor: 0
     - name: ball
       shape: sphere
       center: [0, 0, 1]
@@ -85,6 +90,8 @@ TEST(WorldSection, IsRead) {
   EXPECT_EQ(world.drag, 0.5);
   ASSERT_EQ(world.obstacles.size(), 5U);
   EXPECT_EQ(world.obstacles[0].friction, 0.4);
+  EXPECT_EQ(world.obstacles[0].friction_keys.size(), 2u);
+  EXPECT_EQ(world.obstacles[0].friction_keys.back().time, 2);
   EXPECT_EQ(world.obstacles[1].stiffness, 2);
   ASSERT_EQ(world.obstacles[1].keys.size(), 2U);
   EXPECT_EQ(world.obstacles[1].keys[1].time, 0.5);
@@ -162,6 +169,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"  obstacles:\n    - name: a\n      shape: plane\n"
                 "      keys: [{time: 1}, {time: 1}]\n",
                 ":13:32: keys are not in ascending time"},
+        Mistake{"  obstacles:\n    - name: a\n      shape: plane\n      friction_keys: [{time: 0, "
+                "factor: "
+                "1}]\n",
+                ":13:22: world.obstacles[0] has factors on a friction of 0"},
         Mistake{"  pins:\n    - bone: lower\n", ":11:7: world.pins[0] has no region"},
         Mistake{"  pins:\n    - low: [0, 0, 0]\n", "world.pins[0] has one corner of a box"},
         Mistake{"  pins:\n    - radius: 2\n", "world.pins[0] has half of a ball"},

@@ -35,6 +35,11 @@ world:
       point: [0.2, 0, 0]
       normal: [-1, 0, 0]
       friction: 0.5
+      friction_keys:
+        - time: 0
+          factor: 1
+        - time: 0.3
+          factor: 0.2
     - name: ball
       shape: sphere
       center: [0.25, 0, 0.5]

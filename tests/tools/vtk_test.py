@@ -185,6 +185,26 @@ class Vtk(unittest.TestCase):
         self.assertIn("surface or a volume", said)
         self.assertIn("VTP, VTU, VTK, VTI", sinew("fill", "--help", check=0).stdout)
 
+    def test_materials_of_cells_become_parts_of_the_body(self):
+        """Boxes in a row, of which the last has another material."""
+        for name, array, writer in (("a.vtu", "gmsh:physical", vtk.vtkXMLUnstructuredGridWriter()),
+                                    ("b.vtk", "MaterialIds", vtk.vtkUnstructuredGridWriter())):
+            grid, numbers = hexahedra(), vtk.vtkIntArray()
+            numbers.SetName(array)
+            for number in (7, 7, 7, 3):
+                numbers.InsertNextValue(number)
+            grid.GetCellData().AddArray(numbers)
+            scene, out = self.folder / "bar.yaml", self.folder / "out"
+            path = self.written(writer, grid, name)
+            made = json.loads(sinew("new", path, "-o", scene, "--count", 3000, "--force", "--json", check=0).stdout)
+            self.assertIn("materials", made)
+            self.assert_measures(self.folder / "bar_material_3.ply", (1 / 64, 6 / 16))
+            sinew("simulate", scene, "-o", out, "--force", "--quiet", "--set", "solver.duration=0.02", check=0)
+            part, = json.loads((out / "run.json").read_text())["materials"]
+            whole = json.loads((out / "run.json").read_text())["particles"]
+            self.assertEqual(part["name"], "material 3")
+            self.assertAlmostEqual(part["particles"] / whole, 1 / 4, delta=0.03)
+
     def refused_within(self, megabytes, path):
         """What is said of a file by a command that may take so much memory."""
         bound = lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes * 10**6, megabytes * 10**6))

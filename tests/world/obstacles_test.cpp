@@ -145,11 +145,28 @@ TEST(Obstacles, StoppingFrictionIsTangentAndNoMoreThanItMustAndCanBe) {
   const Contact touch = contact(floor, {}, {0, 0, 0.9 * r}, Vec3::Zero(), r);
   const double most = 0.5 * 200 * 0.1 * r, dt = 1e-3, slow = 0.5 * most * dt / mass;
   const auto friction = [&](const Vec3& relative) {
-    return stopping_friction(floor, touch, relative, mass, dt);
+    return stopping_friction(floor, 1, touch, relative, mass, dt);
   };
   EXPECT_NEAR((friction({0, slow, 7}) - mass / dt * Vec3(0, -slow, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((friction({9 * slow, 0, 7}) - Vec3(-most, 0, 0)).norm(), 0, 1e-15);
   EXPECT_EQ(friction({0, 0, 7}), Vec3(0, 0, 0));
+}
+
+/// Both kinds of friction are mu times the factor of the moment.
+TEST(Obstacles, FrictionFollowsItsKeys) {
+  const double dt = 1e-3, fast = 1e3;
+  for (const double stick : {0.0, 2.0}) {
+    Obstacle floor = floor_of(Vec3::UnitZ());
+    floor.friction = 0.5, floor.stick = stick;
+    floor.friction_scale = {{1, 3}, {1, 0.2}};
+    for (const auto& [time, factor] : {std::pair{0.0, 1.0}, {2.0, 0.6}, {4.0, 0.2}}) {
+      const ObstaclePose now = floor.at(time, {});
+      const Contact touch = contact(floor, now, {0, 0, 0.9 * r}, {fast, 0, 0}, r);
+      const Vec3 stopping = stopping_friction(floor, now.friction, touch, {fast, 0, 0}, mass, dt);
+      const Vec3 felt = stick > 0 ? touch.friction : stopping;
+      EXPECT_NEAR(felt.x(), -0.5 * factor * touch.pressing, 1e-12) << time;
+    }
+  }
 }
 
 TEST(Obstacles, StopSlidingLeavesThoseWithStickAlone) {

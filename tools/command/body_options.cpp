@@ -14,8 +14,8 @@ namespace {
 using Row = Field<Settings>;
 
 bool is_wanted(const Row& row, BodyFlags::Kind kind) {
-  static constexpr std::array<std::string_view, 8> of_mesh = {
-      "unit", "scale", "up", "forward", "weld", "rule", "close_holes", "wrap"};
+  static constexpr std::array<std::string_view, 9> of_mesh = {
+      "unit", "scale", "up", "forward", "level", "weld", "rule", "close_holes", "wrap"};
   if (row.section == "body" && kind == BodyFlags::Kind::mesh)
     return std::find(of_mesh.begin(), of_mesh.end(), row.name) != of_mesh.end();
   if (kind == BodyFlags::Kind::mesh) return false;

@@ -57,6 +57,7 @@ Group section_group(std::string_view section) {
 void add_world(std::vector<Group>& all) {
   all.push_back(entries("world.obstacles[]", obstacle_fields()));
   all.push_back(entries("world.obstacles[].keys[]", place_key_fields()));
+  all.push_back(entries("world.obstacles[].friction_keys[]", friction_key_fields()));
   all.push_back(entries("world.pins[]", pin_fields()));
   all.push_back(entries("world.fields[]", field_fields()));
   all.push_back(entries("world.fields[].keys[]", strength_fields()));

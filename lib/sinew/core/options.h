@@ -45,6 +45,7 @@ struct BodyOptions {
   Vec3 offset = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();          ///< initial, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< initial, about the center of mass, degrees/s
+  std::optional<double> level = {};      ///< value of an image at the surface
   double weld = 0;
   FillRule rule = FillRule::unite;
   bool close_holes = false;

@@ -10,13 +10,14 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t pose_numbers = 18;
+constexpr std::size_t pose_numbers = 19;
 constexpr std::int64_t steps_at_once = 256;
 
 void put(const ObstaclePose& pose, std::vector<double>& numbers) {
   for (const Vec3* part : {&pose.frame.origin, &pose.velocity, &pose.angular_velocity})
     numbers.insert(numbers.end(), part->begin(), part->end());
   numbers.insert(numbers.end(), pose.frame.rotation.data(), pose.frame.rotation.data() + 9);
+  numbers.push_back(pose.friction);
 }
 
 ObstaclePose pose_at(const double* numbers) {
@@ -26,6 +27,7 @@ ObstaclePose pose_at(const double* numbers) {
     numbers += 3;
   }
   pose.frame.rotation = Eigen::Map<const Mat3>(numbers);
+  pose.friction = numbers[9];
   return pose;
 }
 

@@ -100,11 +100,16 @@ bool names_mesh(const std::string& path, std::span<const MeshFormat> more) {
   return format_of(path, with(more)) != nullptr;
 }
 
-PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more) {
+PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more,
+                          std::optional<double> level) {
   const std::vector<MeshFormat> all = with(more);
-  if (const MeshFormat* format = format_of(path, all)) return format->read(path);
+  const MeshFormat* format = format_of(path, all);
+  if (format != nullptr && !level) return format->read(path);
   check_mesh_file(path);  // first check that the file exists
-  throw unknown_format(path, all);
+  if (format == nullptr) throw unknown_format(path, all);
+  if (format->read_level == nullptr)
+    throw bad_input({path}, "it holds no image, which a level needs", "leave out body.level");
+  return format->read_level(path, *level);
 }
 
 PolygonSoup read_obj_look(const std::string& path, PolygonLook& look) {

@@ -6,6 +6,7 @@
 //     const PolygonSoup soup = read_polygons("part.stl");
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,8 @@ struct MeshFormat {
   bool (*recognizes)(std::string_view content) = nullptr;
   /// The same polygons with their look; none: its files say nothing of it.
   PolygonSoup (*read_look)(const std::string& path, PolygonLook& look) = nullptr;
+  /// The surface of an image at a value; none: its files hold no images.
+  PolygonSoup (*read_level)(const std::string& path, double level) = nullptr;
 };
 
 /// "OBJ, OFF, STL, PLY" and the names of `more`.
@@ -33,9 +36,11 @@ bool names_mesh(const std::string& path, std::span<const MeshFormat> more = {});
 
 /// The polygons of a file, unchanged: at least one face, corners that exist, finite coordinates.
 /// The extension, in either case, selects the format: OBJ, OFF (text), STL, PLY (text and binary)
-/// or one of `more`. Throws Error (bad input) naming file, line if any, fault and cure, also where
-/// the first words identify another format than the extension.
-PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more = {});
+/// or one of `more`. `level`: value at the surface, of formats that hold images. Throws Error (bad
+/// input) naming file, line if any, fault and cure, also where the first words identify another
+/// format than the extension, and where no image has the level.
+PolygonSoup read_polygons(const std::string& path, std::span<const MeshFormat> more = {},
+                          std::optional<double> level = {});
 
 /// The polygons as a binary PLY in double: what read_polygons() gives has the same bits.
 std::string ply_text(const PolygonSoup& soup);

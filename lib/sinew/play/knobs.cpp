@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
@@ -13,6 +14,7 @@ namespace sinew {
 namespace {
 
 constexpr std::array along = {"gravity_x", "gravity_y", "gravity_z"};
+const std::string friction_of = "friction of ";  // before the name of an obstacle
 
 KeyedValue curve_of(const std::vector<ValueKeySettings>& keys) {
   KeyedValue curve;
@@ -51,6 +53,7 @@ Vec3 place_of(const Load& spring, const Points& now) {
 void begin_keys(Settings& recorded, const KeyGrid& grid) {
   for (LoadSettings& load : recorded.loads) sample_start(load.keys, grid);
   for (MuscleSettings& muscle : recorded.world.muscles) sample_start(muscle.keys, grid);
+  for (ObstacleSettings& one : recorded.world.obstacles) sample_start(one.friction_keys, grid);
 }
 
 Knobs::Knobs(const Settings& scene, Settings& recorded, const Body& body)
@@ -63,10 +66,15 @@ Knobs::Knobs(const Settings& scene, Settings& recorded, const Body& body)
       mass_(0) {
   if (body.world) world_ = std::make_shared<World>(*body.world);
   for (std::size_t k = 0; k < scene.loads.size(); ++k)
-    channels_.push_back({scene.loads[k].name, false, k, curve_of(scene.loads[k].keys)});
+    channels_.push_back({scene.loads[k].name, Kind::load, k, curve_of(scene.loads[k].keys)});
   for (std::size_t k = 0; k < scene.world.muscles.size(); ++k)
     channels_.push_back(
-        {scene.world.muscles[k].name, true, k, curve_of(scene.world.muscles[k].keys)});
+        {scene.world.muscles[k].name, Kind::muscle, k, curve_of(scene.world.muscles[k].keys)});
+  for (std::size_t k = 0; k < scene.world.obstacles.size(); ++k) {
+    const ObstacleSettings& one = scene.world.obstacles[k];
+    if (one.friction > 0)
+      channels_.push_back({friction_of + one.name, Kind::friction, k, curve_of(one.friction_keys)});
+  }
   std::iota(all_.begin(), all_.end(), 0u);
   for (const std::uint32_t i : all_) {
     masses_.push_back(mass_of(body, i, 1));
@@ -75,17 +83,18 @@ Knobs::Knobs(const Settings& scene, Settings& recorded, const Body& body)
 }
 
 const KeyedValue& Knobs::live(const Channel& channel) const {
-  return channel.is_muscle ? world_->muscles.muscles[channel.index].activation
-                           : world_->loads[channel.index].scale;
+  if (channel.kind == Kind::muscle) return world_->muscles.muscles[channel.index].activation;
+  if (channel.kind == Kind::friction) return world_->obstacles[channel.index].friction_scale;
+  return world_->loads[channel.index].scale;
 }
 KeyedValue& Knobs::live(const Channel& channel) {
-  return channel.is_muscle ? world_->muscles.muscles[channel.index].activation
-                           : world_->loads[channel.index].scale;
+  return const_cast<KeyedValue&>(std::as_const(*this).live(channel));
 }
 
 std::vector<ValueKeySettings>& Knobs::keys_of(const Channel& channel) {
-  return channel.is_muscle ? recorded_.world.muscles[channel.index].keys
-                           : recorded_.loads[channel.index].keys;
+  if (channel.kind == Kind::muscle) return recorded_.world.muscles[channel.index].keys;
+  if (channel.kind == Kind::friction) return recorded_.world.obstacles[channel.index].friction_keys;
+  return recorded_.loads[channel.index].keys;
 }
 
 /// Springs come after the loads, as a scene's do.
@@ -107,15 +116,16 @@ void Knobs::set(const std::string& name, double value) {
   for (Channel& channel : channels_) {
     names.emplace_back(channel.name);
     if (channel.name != name) continue;
-    const bool fits = channel.is_muscle ? value >= 0 && value <= 1 : is_computable(value);
-    if (!fits)
-      throw bad_input(
-          shown(name) + " cannot be " + number_text(value),
-          channel.is_muscle ? "give an activation from 0 to 1" : "give a finite factor");
+    const bool muscle = channel.kind == Kind::muscle, load = channel.kind == Kind::load;
+    if (!is_computable(value) || (!load && value < 0) || (muscle && value > 1))
+      throw bad_input(shown(name) + " cannot be " + number_text(value),
+                      muscle ? "give an activation from 0 to 1"
+                      : load ? "give a finite factor"
+                             : "give a finite factor of 0 or more");
     channel.target = value;
     return;
   }
-  throw bad_input("there is no load or muscle " + shown(name),
+  throw bad_input("there is no load, muscle or friction " + shown(name),
                   names.empty() ? "add one to the scene" : suggestion(name, names));
 }
 
@@ -133,7 +143,7 @@ Knobs::Channel& Knobs::gravity_along(std::size_t axis) {
   load.scale = {{0}, {0}};
   std::vector<Load>& loads = changed_world().loads;
   loads.insert(loads.begin() + static_cast<std::ptrdiff_t>(index), std::move(load));
-  channels_.push_back({along[axis], false, index, {{0}, {0}}});
+  channels_.push_back({along[axis], Kind::load, index, {{0}, {0}}});
   return channels_.back();
 }
 
@@ -152,7 +162,7 @@ std::vector<Knobs::Knob> Knobs::all(double time) const {
   std::vector<Knob> all;
   for (const Channel& channel : channels_)
     if (std::find(along.begin(), along.end(), channel.name) == along.end())
-      all.push_back({channel.name, channel.is_muscle, live(channel).at(time)});
+      all.push_back({channel.name, channel.kind, live(channel).at(time)});
   return all;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is changed while a body moves, besides its bones: factors of loads, activations of muscles,
-// gravity, and springs that pull at the flesh. They act on the body's world and are keys of the
-// recorded settings at once, which give the same values at every moment.
+// What is changed while a body moves, besides its bones: factors of loads and of the friction of
+// obstacles, activations of muscles, gravity, and springs that pull at the flesh. They act on the
+// body's world and are keys of the recorded settings at once, which give the same values at every
+// moment.
 //
 //     Knobs knobs(scene, recorded, body);
 //     knobs.set("tip", 2);
@@ -24,7 +25,7 @@
 
 namespace sinew {
 
-/// The keys of a scene's loads and muscles as the session begins: those of the grid.
+/// The keys of a scene's loads, muscles and frictions as the session begins: those of the grid.
 void begin_keys(Settings& recorded, const KeyGrid& grid);
 
 class Knobs {
@@ -38,16 +39,18 @@ class Knobs {
   /// Whether it is another one since this was asked last.
   bool is_changed() { return std::exchange(changed_, false); }
 
-  /// Sets the factor of a load or the activation of a muscle by its name. Throws bad input for
-  /// another name, with those there are, and a value that is out of range.
+  /// Sets the factor of a load, the activation of a muscle, or the factor on the friction of an
+  /// obstacle ("friction of NAME"), by its name. Throws bad input for another name, with those
+  /// there are, and a value that is out of range.
   void set(const std::string& name, double value);
   /// Sets the weight of all particles, m/s^2.
   void set_gravity(const Vec3& gravity);
 
-  /// A load or a muscle at a time (s), gravity's own loads apart.
+  enum class Kind { load, muscle, friction };
+  /// What changes over time, at a time (s); gravity's own loads apart.
   struct Knob {
     std::string name;
-    bool is_muscle = false;
+    Kind kind = Kind::load;
     double value = 0;
   };
   std::vector<Knob> all(double time) const;
@@ -74,10 +77,10 @@ class Knobs {
   void go_back(const Targets& targets);
 
  private:
-  /// A value over time: of a muscle or a load, by its number.
+  /// A value over time: of a load, a muscle or an obstacle, by its number.
   struct Channel {
     std::string name;
-    bool is_muscle = false;
+    Kind kind = Kind::load;
     std::size_t index = 0;
     KeyedValue scene = {};              ///< curve of the scene
     std::optional<double> target = {};  ///< value that was set

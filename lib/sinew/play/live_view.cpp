@@ -138,7 +138,9 @@ std::string LiveView::scene_text(Session& session) {
   Json parents = Json::array(), knobs = Json::array();
   for (const Bone& bone : session.skeleton().bones) parents.push_back(bone.parent);
   for (const Knobs::Knob& knob : session.knobs_now().all(session.time()))
-    knobs.push_back({{"name", knob.name}, {"max", knob.is_muscle ? 1 : 2}, {"value", knob.value}});
+    knobs.push_back({{"name", knob.name},
+                     {"max", knob.kind == Knobs::Kind::muscle ? 1 : 2},
+                     {"value", knob.value}});
   const Vec3 gravity = session.knobs_now().gravity(session.time());
   const Json more = {{"fields", fields},
                      {"parents", parents},

@@ -92,6 +92,7 @@ void Recording::truncate(std::int64_t number, std::vector<BoneKeys> keys) {
   if (rows_.size() < kept_) table_.reset();  // is written anew
   const double time = grid_.time(number);
   for (MuscleSettings& muscle : scene_.world.muscles) forget_after(muscle.keys, time);
+  for (ObstacleSettings& one : scene_.world.obstacles) forget_after(one.friction_keys, time);
   for (LoadSettings& load : scene_.loads) forget_after(load.keys, time);
   for (SpringSettings& spring : scene_.world.springs) forget_after(spring.keys, time);
 }

@@ -119,7 +119,9 @@ Session::Session(const Settings& scene, SessionOptions options) : options_(std::
   recording_->keep(options_.folder, options_.name, 0);
 
   const std::filesystem::path table = options_.folder / (options_.name + ".keys.csv");
-  Prepared prepared = prepare({recording_->settings_until(1, table), std::move(first.filled)});
+  Prepared prepared = prepare({.settings = recording_->settings_until(1, table),
+                               .filled = std::move(first.filled),
+                               .modes = std::move(first.modes)});
   surface_ = prepared.surface;
   obstacles_ = prepared.obstacles;
   meter_.emplace(prepared.body, surface_.triangles, prepared.body.neighbors);

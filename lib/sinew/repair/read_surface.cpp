@@ -15,7 +15,7 @@ namespace sinew {
 
 Surface read_surface(const BodyOptions& body, std::span<const MeshFormat> more) {
   Stopwatch watch;
-  PolygonSoup soup = read_polygons(body.mesh, more);
+  PolygonSoup soup = read_polygons(body.mesh, more, body.level);
   const double reading = watch.lap();
   Surface surface = read_surface(std::move(soup), body);
   surface.seconds_reading = reading;

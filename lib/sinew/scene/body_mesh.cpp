@@ -23,6 +23,10 @@ PolygonSoup read_gltf_file(const std::string& path) { return read_gltf(path); }
 
 PolygonSoup read_vtk_file(const std::string& path) { return read_vtk_mesh(path); }
 
+PolygonSoup read_vtk_image(const std::string& path, double level) {
+  return read_vtk_mesh(path, level);
+}
+
 PolygonSoup read_gltf_look_file(const std::string& path, PolygonLook& look) {
   return read_gltf_look(path, look);
 }
@@ -36,8 +40,8 @@ constexpr std::array<MeshFormat, 9> formats_of_io = {
      {"COLLADA", ".dae", read_gltf_file, nullptr, read_gltf_look_file},
      {"VTP", ".vtp", read_vtk_file},
      {"VTU", ".vtu", read_vtk_file},
-     {"VTK", ".vtk", read_vtk_file},
-     {"VTI", ".vti", read_vtk_file}}};
+     {"VTK", ".vtk", read_vtk_file, nullptr, nullptr, read_vtk_image},
+     {"VTI", ".vti", read_vtk_file, nullptr, nullptr, read_vtk_image}}};
 
 }  // namespace
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include <sinew/analysis/elastic_modes.h>
 #include <sinew/core/error.h>
 #include <sinew/world/references.h>
 
@@ -35,21 +34,23 @@ void add_rigid(double rate, bool with_bones, Body& body) {
     if (bone.stiffest() > 0) bone.damping += rate * body.material.mass;
 }
 
-ElasticModes modes_for(const Settings& settings, const char* key, const Body& body) {
-  ElasticModes modes = elastic_modes(body);
-  if (modes.empty())
+const ElasticModes& modes_for(const Settings& settings, const char* key, const Body& body,
+                              std::optional<ElasticModes>& modes) {
+  if (!modes) modes = elastic_modes(body);
+  if (modes->empty())
     throw bad_input(settings.place(key),
                     "the lowest elastic mode of this body cannot be found: it has none, or over "
                     "200,000 particles in too few layers",
                     "give material.damping instead");
-  return modes;
+  return *modes;
 }
 
 /// Rayleigh's: eq. 2 has the share of beta in the lowest mode.
-void set_rayleigh(const Settings& settings, double alpha, double beta, Body& body) {
+void set_rayleigh(const Settings& settings, double alpha, double beta, Body& body,
+                  std::optional<ElasticModes>& found) {
   body.material.damping = 0;
   if (beta > 0) {
-    const ElasticModes modes = modes_for(settings, "material.rayleigh", body);
+    const ElasticModes& modes = modes_for(settings, "material.rayleigh", body, found);
     body.material.damping = beta * modes.squared[0] / modes.rates(0, 0);
   }
   add_rigid(alpha, moves_with_bones(body), body);
@@ -57,13 +58,13 @@ void set_rayleigh(const Settings& settings, double alpha, double beta, Body& bod
 
 }  // namespace
 
-void set_damping(const Settings& settings, Body& body) {
+void set_damping(const Settings& settings, Body& body, std::optional<ElasticModes>& found) {
   if (settings.solver.method == Method::static_equilibrium) return;
   if (const auto& given = settings.material.rayleigh)
-    return set_rayleigh(settings, given->at(0), given->at(1), body);
+    return set_rayleigh(settings, given->at(0), given->at(1), body, found);
   if (!settings.material.damping_ratio) return;
   const double ratio = *settings.material.damping_ratio;
-  const ElasticModes modes = modes_for(settings, "material.damping_ratio", body);
+  const ElasticModes& modes = modes_for(settings, "material.damping_ratio", body, found);
   double& damping = body.material.damping;
   if (!(ratio > 0)) {
     damping = 0;

@@ -43,6 +43,7 @@ Winding inside_of(const Settings& settings, const std::string& mesh, const std::
   file.mesh = mesh;
   file.wrap.reset();
   file.close_holes = false;
+  file.level.reset();
   const Surface surface = with_context(settings, (path + ".mesh").c_str(),
                                        [&] { return read_body_mesh(file, settings); });
   if (!surface.closed())

@@ -251,7 +251,7 @@ void bind(const SceneFiles& files, const Scene& scene, Prepared& prepared) {
   for (const std::string& warning : warnings_of(files)) prepared.file_warnings.push_back(warning);
   prepared.joint_zone = settings.binding.joint_zone;
   prepared.weights_given = settings.binding.method == BindMethod::file;
-  set_damping(settings, prepared.body);
+  set_damping(settings, prepared.body, prepared.modes);
   let_pass(prepared);
   set_groups(prepared);
   if (!is_static(settings)) return;
@@ -309,6 +309,7 @@ Prepared prepare(Scene scene) {
   }
   prepared.seconds_filling = watch.lap();
   prepared.frames = frame_times(settings);
+  prepared.modes = std::move(scene.modes);
   bind(files, scene, prepared);
   plan(prepared);
   complete(prepared.body, prepared.filled);

@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include <sinew/analysis/elastic_modes.h>
 #include <sinew/analysis/time_step.h>
 #include <sinew/core/particles.h>
 #include <sinew/core/surface_look.h>
@@ -64,6 +65,8 @@ struct Scene {
   /// Runs do not write it: whoever measures their files takes the model's.
   const ForceLaw* law = nullptr;
   bool with_rig = true;  ///< else without bones, even where nothing surrounds the body
+  /// Elastic modes of the body, as Prepared has them, lest they are found again.
+  std::optional<ElasticModes> modes = {};
 };
 
 /// A scene filled, bound and ready to be stepped.
@@ -90,6 +93,7 @@ struct Prepared {
   /// Flesh that passes through flesh: the pairs of body.pass_through, with what was found of them.
   std::vector<Intrusion> passing = {};
   FrameTimes frames;
+  std::optional<ElasticModes> modes = {};  ///< by which damping was chosen, if it was
   double seconds_filling = 0, seconds_binding = 0;
 };
 

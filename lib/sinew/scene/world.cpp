@@ -131,6 +131,7 @@ void add_obstacles(const Settings& settings, std::span<const Surface> meshes, co
     obstacle.stiffness = given.stiffness * k;
     obstacle.damping = given.damping * std::sqrt(obstacle.stiffness * material.mass);
     obstacle.friction = given.friction;
+    obstacle.friction_scale = values_of(given.friction_keys);
     world.obstacles.push_back(std::move(obstacle));
     surfaces.push_back(std::move(placed.surface));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sinew/settings/sections.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,14 @@ void check_shape(const ObstacleSettings& obstacle, const std::string& path,
 
 void read_obstacle(const YamlNode& item, const std::string& path, ObstacleSettings& obstacle,
                    Settings& settings) {
-  read_fields(item, path, obstacle_fields(), "keys", obstacle, settings.places);
+  static constexpr std::array<std::string_view, 2> lists = {"keys", "friction_keys"};
+  read_fields(item, path, obstacle_fields(), lists, obstacle, settings.places);
   check_shape(obstacle, path, settings);
   read_keys(item, path, place_key_fields(), obstacle.keys, settings);
+  read_keys(item, path, friction_key_fields(), obstacle.friction_keys, settings, lists[1]);
+  if (!obstacle.friction_keys.empty() && obstacle.friction == 0)
+    throw bad_input(settings.place(path + ".friction_keys"),
+                    path + " has factors on a friction of 0", "add friction: with a coefficient");
   check_axes_of_keys(obstacle.keys, path, settings);
   if (!obstacle.bone.empty() && !obstacle.keys.empty())
     throw bad_input(settings.place(path + ".keys"), path + " has a bone and keys of its own",
@@ -148,6 +154,17 @@ void check_region(const RegionSettings& region, const std::string& path, const S
                     "give the least corner as low and the greatest as high");
 }
 
+namespace {
+
+std::string friction_text(const ObstacleSettings& obstacle, bool first) {
+  return list_text("friction_keys", obstacle.friction_keys, 6,
+                   [&](const ValueKeySettings& key, bool first_key) {
+                     return entry_text(friction_key_fields(), key, 8, first && first_key);
+                   });
+}
+
+}  // namespace
+
 void read_world(const YamlNode& node, Settings& settings) {
   WorldSettings& world = settings.world;
   const auto with = [&](auto read) {
@@ -173,7 +190,7 @@ std::string world_text(const Settings& settings, const std::filesystem::path& fo
       list_text("obstacles", world.obstacles, 2, [&](ObstacleSettings obstacle, bool first) {
         obstacle.mesh = path_in(folder, obstacle.mesh);
         return entry_text(obstacle_fields(), obstacle, 4, first) +
-               keys_text(place_key_fields(), obstacle, 4, first);
+               keys_text(place_key_fields(), obstacle, 4, first) + friction_text(obstacle, first);
       });
   text += list_text("pins", world.pins, 2, [](const PinSettings& pin, bool first) {
     return entry_text(pin_fields(), pin, 4, first);

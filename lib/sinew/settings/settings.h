@@ -58,6 +58,7 @@ struct ObstacleSettings {
   double damping = 0.5;
   Interpolation interpolation = Interpolation::smooth;
   std::vector<PlaceKeySettings> keys = {};
+  std::vector<ValueKeySettings> friction_keys = {};  ///< factors on friction
 };
 
 struct PinSettings {

@@ -36,6 +36,9 @@ std::vector<Field<S>> rows_of_mesh(std::string_view section) {
                "initial velocity of what fills the mesh"),
       field<S>(section, "angular_velocity", SINEW_AT(S, body.angular_velocity), "degrees/s",
                "initial angular velocity of what fills the mesh, about its center of mass"),
+      field<S>(section, "level", SINEW_AT(S, body.level), "",
+               "value of an image (VTI, VTK) at the surface; auto: 0, or halfway between the "
+               "extremes where all values have one sign"),
       field<S>(section, "weld", SINEW_AT(S, body.weld), "m",
                "merges points of the mesh closer than this; 0 merges identical points only",
                not_negative),

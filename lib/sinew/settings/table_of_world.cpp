@@ -193,6 +193,12 @@ std::span<const Field<PlaceKeySettings>> place_key_fields() {
   return table;
 }
 
+std::span<const Field<ValueKeySettings>> friction_key_fields() {
+  static const auto table = make_value_keys(
+      "factor", "factor on the obstacle's friction; linear between keys", not_negative);
+  return table;
+}
+
 std::span<const Field<PinSettings>> pin_fields() {
   static const auto table = make_pins();
   return table;

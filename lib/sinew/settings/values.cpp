@@ -252,6 +252,7 @@ std::vector<std::string> homes_of(std::string_view name) {
   search(track_fields(), "motion.tracks");
   search(key_fields(), "motion.tracks[].keys");
   search(obstacle_fields(), "world.obstacles");
+  search(friction_key_fields(), "world.obstacles[].friction_keys");
   search(pin_fields(), "world.pins");
   search(field_fields(), "world.fields");
   search(strength_fields(), "world.fields[].keys");

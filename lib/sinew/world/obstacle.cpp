@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
@@ -26,7 +27,9 @@ Vec3 rub(double max_force, double stick, const Vec3& sliding) {
 }  // namespace
 
 ObstaclePose Obstacle::at(double time, const Pose& pose) const {
-  return motion ? motion(time, pose) : ObstaclePose{};
+  ObstaclePose now = motion ? motion(time, pose) : ObstaclePose{};
+  now.friction = friction_scale.at(time);
+  return now;
 }
 
 ObstacleMotion still(const RigidFrame& frame) {
@@ -66,16 +69,16 @@ Contact contact(const Obstacle& obstacle, const ObstaclePose& pose, const Vec3& 
   touch.pressing = spring + brake;
   touch.spring = spring * normal;
   touch.damping = brake * normal;
-  touch.friction =
-      rub(obstacle.friction * touch.pressing, obstacle.stick, relative - leaving * normal);
+  touch.friction = rub(pose.friction * obstacle.friction * touch.pressing, obstacle.stick,
+                       relative - leaving * normal);
   touch.energy = spring * depth / 2;
   return touch;
 }
 
-Vec3 stopping_friction(const Obstacle& obstacle, const Contact& touch, const Vec3& relative,
-                       double mass, double step) {
+Vec3 stopping_friction(const Obstacle& obstacle, double friction, const Contact& touch,
+                       const Vec3& relative, double mass, double step) {
   const Vec3 sliding = relative - touch.normal.dot(relative) * touch.normal;
-  return rub(obstacle.friction * touch.pressing, mass / step, sliding);
+  return rub(friction * obstacle.friction * touch.pressing, mass / step, sliding);
 }
 
 void check_obstacle(const Obstacle& obstacle) {
@@ -84,6 +87,8 @@ void check_obstacle(const Obstacle& obstacle) {
   check_constant(obstacle, "damping", obstacle.damping);
   check_constant(obstacle, "friction", obstacle.friction);
   check_constant(obstacle, "stick", obstacle.stick);
+  check_keys(obstacle.friction_scale, 0, std::numeric_limits<double>::max(),
+             "obstacle '" + obstacle.name + "'");
 }
 
 }  // namespace sinew

@@ -21,6 +21,7 @@
 
 #include <sinew/core/vector.h>
 #include <sinew/rig/pose.h>
+#include <sinew/world/region.h>
 #include <sinew/world/shapes.h>
 
 namespace sinew {
@@ -30,6 +31,7 @@ struct ObstaclePose {
   RigidFrame frame;                      ///< maps the shape's coordinates to the scene's
   Vec3 velocity = Vec3::Zero();          ///< velocity of the frame's origin, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
+  double friction = 1;                   ///< factor on the obstacle's
 
   /// Velocity of the point of this rigid obstacle that is at `p` now, m/s.
   Vec3 velocity_at(const Vec3& p) const {
@@ -43,12 +45,13 @@ using ObstacleMotion = std::function<ObstaclePose(double, const Pose&)>;
 struct Obstacle {
   std::string name;
   Shape shape;
-  ObstacleMotion motion;  ///< none: shape coordinates are scene coordinates
-  double stiffness = 0;   ///< k, N/m
-  double damping = 0;     ///< c, kg/s
-  double friction = 0;    ///< mu
-  double stick = 0;       ///< s, kg/s; 0: friction stops what slides in a step
-  int bone = no_bone;     ///< on which it rides, by its motion
+  ObstacleMotion motion;           ///< none: shape coordinates are scene coordinates
+  double stiffness = 0;            ///< k, N/m
+  double damping = 0;              ///< c, kg/s
+  double friction = 0;             ///< mu
+  double stick = 0;                ///< s, kg/s; 0: friction stops what slides in a step
+  int bone = no_bone;              ///< on which it rides, by its motion
+  KeyedValue friction_scale = {};  ///< over time; 1 without keys
 
   ObstaclePose at(double time, const Pose& pose) const;
 };
@@ -77,9 +80,9 @@ Contact contact(const Obstacle& obstacle, const ObstaclePose& pose, const Vec3& 
 
 /// The friction, N, that stops the sliding of a particle of `mass` (kg) within a step (s), or mu
 /// f_n where that is less. `relative` (m/s) is its velocity at the end of that step without
-/// friction, relative to the obstacle's point there.
-Vec3 stopping_friction(const Obstacle& obstacle, const Contact& touch, const Vec3& relative,
-                       double mass, double step);
+/// friction, relative to the obstacle's point there; `friction`: factor on the obstacle's.
+Vec3 stopping_friction(const Obstacle& obstacle, double friction, const Contact& touch,
+                       const Vec3& relative, double mass, double step);
 
 /// Throws bad input for a bad shape, and for constants that are negative or not finite.
 void check_obstacle(const Obstacle& obstacle);

@@ -49,7 +49,8 @@ class Gatherer {
       const Contact touch = contact_with(k);
       if (!(touch.pressing > 0)) continue;
       const Vec3 relative = velocity - now_.obstacles[k].velocity_at(particle_.position);
-      const Vec3 friction = stopping_friction(obstacle, touch, relative, mass_, step);
+      const Vec3 friction =
+          stopping_friction(obstacle, now_.obstacles[k].friction, touch, relative, mass_, step);
       add_contact(k, friction, friction);
       velocity += step / mass_ * friction;
     }

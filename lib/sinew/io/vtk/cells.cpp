@@ -5,12 +5,15 @@
 #include <array>
 #include <initializer_list>
 #include <map>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include <sinew/core/error.h>
+#include <sinew/core/text.h>
 
 namespace sinew {
 namespace {
@@ -242,25 +245,36 @@ bool is_left_out(std::uint8_t flags) {
   return (flags & (duplicate | hidden)) != 0;
 }
 
+/// The cells that `wanted` selects by their place; none of damaged ones.
+template <class Wanted>
+std::optional<VtkCells> cells_where(const VtkCells& cells, const Wanted& wanted) {
+  VtkCells some;
+  std::int64_t begin = 0;
+  for (std::size_t i = 0; i < cells.ends.size(); ++i) {
+    const std::int64_t end = cells.ends[i];
+    if (end < begin || end > static_cast<std::int64_t>(cells.points.size())) return std::nullopt;
+    if (wanted(i)) {
+      some.types.push_back(cells.types[i]);
+      some.points.insert(some.points.end(), cells.points.begin() + begin,
+                         cells.points.begin() + end);
+      some.ends.push_back(static_cast<std::int64_t>(some.points.size()));
+      if (i < cells.materials.size()) some.materials.push_back(cells.materials[i]);
+    }
+    begin = end;
+  }
+  return some;
+}
+
 /// Removes the cells that are left out, none from damaged ones. Returns their number.
 std::size_t drop_ghosts(VtkCells& cells) {
   const std::size_t count = cells.ends.size();
   if (std::none_of(cells.ghosts.begin(), cells.ghosts.end(), is_left_out)) return 0;
   if (cells.types.size() != count) return 0;
-  VtkCells shown;
-  std::int64_t begin = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t end = cells.ends[i];
-    if (end < begin || end > static_cast<std::int64_t>(cells.points.size())) return 0;
-    if (i >= cells.ghosts.size() || !is_left_out(cells.ghosts[i])) {
-      shown.types.push_back(cells.types[i]);
-      shown.points.insert(shown.points.end(), cells.points.begin() + begin,
-                          cells.points.begin() + end);
-      shown.ends.push_back(static_cast<std::int64_t>(shown.points.size()));
-    }
-    begin = end;
-  }
-  cells = std::move(shown);
+  auto shown = cells_where(cells, [&](std::size_t i) {
+    return i >= cells.ghosts.size() || !is_left_out(cells.ghosts[i]);
+  });
+  if (!shown) return 0;
+  cells = std::move(*shown);
   return count - cells.ends.size();
 }
 
@@ -283,18 +297,51 @@ void add_warning(PolygonSoup& soup, const std::string& warning) {
   soup.warning += (soup.warning.empty() || warning.empty() ? "" : "; ") + warning;
 }
 
-PolygonSoup soup_of(Points points, VtkCells cells, bool pieces) {
+PolygonSoup soup_of(VtkGrid grid) {
+  VtkCells& cells = grid.cells;
   const std::size_t all = cells.ends.size(), dropped = drop_ghosts(cells);
   if (dropped > 0 && dropped == all)
     throw bad_input("all of its " + std::to_string(all) + " cells are ghosts or hidden",
                     "give the file that holds the cells themselves");
-  if (pieces || dropped > 0) join_equal_points(points, cells);
-  PolygonSoup soup{std::move(points), {}, {}};
+  if (grid.pieces || dropped > 0) join_equal_points(grid.points, cells);
+  PolygonSoup soup{std::move(grid.points), {}, {}};
   soup.polygons = surface_of(cells, soup.points.size());
   if (dropped > 0)
     soup.warning = "cells that are left out, as copies of another piece's (ghosts) or hidden: " +
                    std::to_string(dropped) + " of " + std::to_string(all);
   return soup;
+}
+
+bool names_materials(std::string_view array) {
+  static constexpr std::array<std::string_view, 16> names = {
+      "material",      "materials", "materialid",    "materialids",    "matid",  "mat",
+      "partid",        "part",      "region",        "regionid",       "domain", "domainid",
+      "gmsh:physical", "medit:ref", "cellentityids", "elementblockids"};
+  std::string name = lower(array);
+  std::erase_if(name, [](char letter) { return letter == '_' || letter == ' '; });
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<MaterialSurface> materials_of(VtkGrid grid) {
+  constexpr std::size_t max_materials = 64;
+  VtkCells& cells = grid.cells;
+  const bool joined = drop_ghosts(cells) > 0 || grid.pieces;
+  if (cells.materials.size() != cells.ends.size() || cells.types.size() != cells.ends.size())
+    return {};
+  if (joined) join_equal_points(grid.points, cells);
+  std::set<std::int64_t> numbers;
+  for (std::size_t i = 0; i < cells.types.size(); ++i)
+    if (solid_of(cells.types[i]) != nullptr) numbers.insert(cells.materials[i]);
+  std::vector<MaterialSurface> materials;
+  if (numbers.size() > max_materials) return materials;
+  for (const std::int64_t number : numbers) {
+    const auto own = cells_where(cells, [&](std::size_t i) {
+      return cells.materials[i] == number && solid_of(cells.types[i]) != nullptr;
+    });
+    if (!own) return {};
+    materials.push_back({number, {grid.points, surface_of(*own, grid.points.size()), {}}});
+  }
+  return materials;
 }
 
 }  // namespace sinew

@@ -219,18 +219,25 @@ void check_faces(const Padded& image, std::size_t bytes) {
   if (faces > max_faces)
     throw bad_input("its surface has " + std::to_string(faces) + " faces, more than " +
                         std::to_string(max_faces) + ", as of noise",
-                    "smooth the image, or subtract another level from it");
+                    "smooth the image, or set another body.level");
 }
 
-/// Shifts values of one sign so that halfway is zero; returns what is said of it, or "".
-std::string with_level(LevelSet& image) {
+/// Shifts the values so that the surface is at zero; returns what is said of it, or "".
+std::string with_level(LevelSet& image, std::optional<double> level) {
   const auto [lowest, highest] = std::minmax_element(image.values.begin(), image.values.end());
   const double low = *lowest, high = *highest, halfway = low + (high - low) / 2;
-  if ((low < 0 && high >= 0) || !(low < halfway && halfway < high)) return {};
-  for (double& value : image.values) value -= halfway;
+  if (level && !(low < *level && *level < high))
+    throw bad_input("no surface is at the level of " + number_text(*level) +
+                        ": the image's values reach from " + three_digits(low) + " to " +
+                        three_digits(high),
+                    "give a level between them");
+  const bool has_zero = low < 0 && high >= 0, has_halfway = low < halfway && halfway < high;
+  if (!level && (has_zero || !has_halfway)) return {};
+  for (double& value : image.values) value -= level.value_or(halfway);
+  if (level) return {};
   return "all values of the image are from " + three_digits(low) + " to " + three_digits(high) +
          ": the surface is halfway, at " + three_digits(halfway) +
-         "; subtract another level from them if it is elsewhere";
+         "; set body.level if it is elsewhere";
 }
 
 }  // namespace
@@ -238,7 +245,11 @@ std::string with_level(LevelSet& image) {
 Error no_surface(double low, double high) {
   return bad_input("no surface is in the image: its values reach from " + three_digits(low) +
                        " to " + three_digits(high) + " and do not change their sign",
-                   "give distances that are negative on one side, or subtract a level from it");
+                   "give distances that are negative on one side, or set body.level");
+}
+
+Error no_image() {
+  return bad_input("it holds no image, which a level needs", "leave out body.level");
 }
 
 void move_to_cells(LevelSet& image) {
@@ -246,9 +257,9 @@ void move_to_cells(LevelSet& image) {
   image.origin += image.axes * Vec3::Constant(0.5);
 }
 
-PolygonSoup zero_level(LevelSet image) {
+PolygonSoup level_surface(LevelSet image, std::optional<double> level) {
   check(image);
-  const std::string level = with_level(image);
+  const std::string told = with_level(image, level);
   const Padded padded(image);
   if (padded.samples_inside() == 0) {
     const auto [low, high] = std::minmax_element(image.values.begin(), image.values.end());
@@ -256,9 +267,9 @@ PolygonSoup zero_level(LevelSet image) {
   }
   check_faces(padded, image.bytes);
   PolygonSoup soup = Contour(padded).soup();
-  soup.warning = level;
+  soup.warning = told;
   if (padded.samples_cut() > 0)
-    soup.warning += std::string(level.empty() ? "" : "; ") +
+    soup.warning += std::string(told.empty() ? "" : "; ") +
                     "the body reaches the border of its image, at " +
                     std::to_string(padded.samples_cut()) +
                     " samples, and is cut off and closed there; give a larger image if it goes on";

@@ -162,25 +162,24 @@ class Reader {
   std::string_view rest_;
 };
 
+bool is_whole(double number) { return std::abs(number) < 1e15 && number == std::floor(number); }
+
 std::vector<std::int64_t> as_integers(const std::vector<double>& numbers) {
   std::vector<std::int64_t> integers;
   integers.reserve(numbers.size());
   for (const double number : numbers) {
-    if (!(std::abs(number) < 1e15) || number != std::floor(number))
+    if (!is_whole(number))
       throw damaged(number_text(number) + " is in the place of a whole number");
     integers.push_back(static_cast<std::int64_t>(number));
   }
   return integers;
 }
 
-/// What is read of a file: a grid, or an image.
-struct Content {
-  Points points;
-  VtkCells cells;
+/// What is read of a file, on the way.
+struct Content : LegacyContent {
   std::vector<std::int64_t> types;
   std::uint64_t others = 0;  ///< vertices and lines, which precede the cells in arrays of cells
-  std::optional<LevelSet> image;
-  bool at_points = false;  ///< whether the image's values are at its points
+  bool at_points = false;    ///< whether the image's values are at its points
 };
 
 /// An array at points or cells, or of a field.
@@ -348,15 +347,15 @@ bool read_of_image(Reader& in, std::string_view keyword, LevelSet& image) {
 bool read_of_grid(Reader& in, std::string_view keyword, double version, Content& content) {
   VtkCells unused;
   if (keyword == "POINTS")
-    read_points(in, content.points);
+    read_points(in, content.grid.points);
   else if (keyword == "POLYGONS")
-    read_cells(in, version, vtk_polygon, content.cells);
+    read_cells(in, version, vtk_polygon, content.grid.cells);
   else if (keyword == "TRIANGLE_STRIPS")
-    read_cells(in, version, vtk_strip, content.cells);
+    read_cells(in, version, vtk_strip, content.grid.cells);
   else if (keyword == "VERTICES" || keyword == "LINES")
     read_cells(in, version, 0, unused), content.others += unused.ends.size();
   else if (keyword == "CELLS")
-    read_cells(in, version, -1, content.cells);
+    read_cells(in, version, -1, content.grid.cells);
   else if (keyword == "CELL_TYPES")
     content.types = as_integers(in.numbers("int", in.count()));
   else
@@ -381,13 +380,20 @@ void take_of_image(const Array& array, bool cells, Content& content) {
   content.at_points = !cells;
 }
 
-void take_ghosts(const Array& array, Content& content) {
+/// Takes flags and numbers of materials.
+void take_of_cells(const Array& array, Content& content) {
+  VtkCells& cells = content.grid.cells;
   const bool old = array.name == old_ghost_array;
-  if (!old && array.name != ghost_array) return;
-  content.cells.ghosts.clear();
-  for (std::size_t i = content.others; i < array.values.size(); ++i)
-    content.cells.ghosts.push_back(
-        static_cast<std::uint8_t>(old ? array.values[i] > 0 : array.values[i]));
+  if (old || array.name == ghost_array) {
+    cells.ghosts.clear();
+    for (std::size_t i = content.others; i < array.values.size(); ++i)
+      cells.ghosts.push_back(
+          static_cast<std::uint8_t>(old ? array.values[i] > 0 : array.values[i]));
+  } else if (array.columns == 1 && names_materials(array.name) && cells.materials.empty() &&
+             std::all_of(array.values.begin(), array.values.end(), is_whole)) {
+    for (std::size_t i = content.others; i < array.values.size(); ++i)
+      cells.materials.push_back(static_cast<std::int64_t>(array.values[i]));
+  }
 }
 
 /// The arrays of points and cells. Those of a grid concern it only where they have flags: it needs
@@ -404,7 +410,7 @@ void read_data(Reader& in, std::string_view keyword, Content& content) {
       rows = in.count();
     } else if (!read_arrays(in, keyword, rows, [&](const Array& array) {
                  if (content.image) take_of_image(array, cells, content);
-                 if (!content.image && cells) take_ghosts(array, content);
+                 if (!content.image && cells) take_of_cells(array, content);
                })) {
       throw damaged("it has an unknown word " + shown(keyword));
     }
@@ -438,12 +444,11 @@ Content content_of(Reader& in, double version, bool image) {
   return content;
 }
 
-PolygonSoup surface_of(Content content) {
+LegacyContent checked(Content content) {
   if (!content.image) {
-    VtkCells& cells = content.cells;
     for (const std::int64_t type : content.types)
-      cells.types.push_back(std::in_range<int>(type) ? static_cast<int>(type) : -1);
-    return soup_of(std::move(content.points), std::move(cells), false);
+      content.grid.cells.types.push_back(std::in_range<int>(type) ? static_cast<int>(type) : -1);
+    return content;
   }
   LevelSet& image = *content.image;
   if (image.values.empty())
@@ -454,7 +459,7 @@ PolygonSoup surface_of(Content content) {
   if (samples != static_cast<double>(image.values.size()))
     throw damaged("the image has " + std::to_string(image.values.size()) + " values of " +
                   number_text(samples));
-  return zero_level(std::move(image));
+  return content;
 }
 
 }  // namespace
@@ -463,7 +468,7 @@ void check_start_of_legacy(std::string_view text) {
   if (!text.starts_with(legacy_begin)) throw damaged("it is no legacy VTK file");
 }
 
-PolygonSoup legacy_surface(std::string_view text) {
+LegacyContent legacy_content(std::string_view text) {
   check_start_of_legacy(text);
   Reader in(text);
   const double version = Reader(in.line().substr(legacy_begin.size())).number();
@@ -473,7 +478,7 @@ PolygonSoup legacy_surface(std::string_view text) {
     throw damaged("it is neither ASCII nor BINARY, but " + shown(coding));
   in.binary = coding == "BINARY";
   std::string_view keyword = in.word();
-  if (keyword == "DATASET") return surface_of(content_of(in, version, is_image(in.word())));
+  if (keyword == "DATASET") return checked(content_of(in, version, is_image(in.word())));
   throw damaged("it has " + shown(keyword) + " in the place of DATASET");
 }
 

@@ -43,12 +43,6 @@ std::vector<std::int64_t> integers_of(const VtkXmlFile& file, PieceElements piec
   throw vtu_refused("array " + quoted(name) + " does not hold integers of 32 bits");
 }
 
-/// All pieces of a grid as one.
-struct Grid {
-  Points points;
-  VtkCells cells;
-};
-
 /// Adds the cells of one group of a piece, whose points begin at `first`; `type`: of all of them,
 /// or -1 where the file says.
 void add_cells(const VtkXmlFile& file, PieceElements piece, const std::string& group,
@@ -91,7 +85,35 @@ void add_ghosts(const VtkXmlFile& file, PieceElements piece, std::uint64_t befor
   }
 }
 
-void add_piece(const VtkXmlFile& file, PieceElements piece, Grid& grid) {
+/// Appends `count` values, if there are that many and all are whole.
+template <class Number>
+void append_whole(const std::vector<Number>& values, std::size_t count,
+                  std::vector<std::int64_t>& to) {
+  const auto whole = [](double value) {
+    return std::abs(value) < 1e15 && value == std::floor(value);
+  };
+  if (values.size() != count || !std::all_of(values.begin(), values.end(), whole)) return;
+  for (const Number value : values) to.push_back(static_cast<std::int64_t>(value));
+}
+
+/// Adds the numbers of materials of the last cells, of the first array that has them; none of a
+/// damaged one, which the surface does not need.
+void add_materials(const VtkXmlFile& file, PieceElements piece, VtkCells& cells) {
+  const std::size_t count = cells.ends.size() - cells.materials.size();
+  for (const XmlElement* array : file.arrays_in(piece, "Piece/CellData")) {
+    const auto components = array->attribute("NumberOfComponents");
+    if (!names_materials(array->attribute("Name")) || (!components.empty() && components != "1"))
+      continue;
+    try {
+      std::visit([&](const auto& values) { append_whole(values, count, cells.materials); },
+                 file.arrays.column(*array, count).values);
+    } catch (const Error&) {
+    }
+    return;
+  }
+}
+
+void add_piece(const VtkXmlFile& file, PieceElements piece, VtkGrid& grid) {
   const std::uint64_t count = file.arrays.count(piece.front(), "NumberOfPoints");
   const std::size_t first = grid.points.size();
   if (count > 0) {
@@ -113,19 +135,22 @@ void add_piece(const VtkXmlFile& file, PieceElements piece, Grid& grid) {
               grid.cells);
     return count_of(number);
   };
-  if (file.type == "UnstructuredGrid")
-    return add_ghosts(file, piece, 0, add("Cells", "NumberOfCells", -1), grid.cells);
+  if (file.type == "UnstructuredGrid") {
+    add_ghosts(file, piece, 0, add("Cells", "NumberOfCells", -1), grid.cells);
+    return add_materials(file, piece, grid.cells);
+  }
   const std::uint64_t polygons = add("Polys", "NumberOfPolys", vtk_polygon),
                       strips = add("Strips", "NumberOfStrips", vtk_strip);
   add_ghosts(file, piece, count_of("NumberOfVerts") + count_of("NumberOfLines"), polygons + strips,
              grid.cells);
 }
 
-PolygonSoup surface_of_grid(const VtkXmlFile& file) {
-  Grid grid;
+VtkGrid grid_of(const VtkXmlFile& file) {
+  VtkGrid grid;
   const auto pieces = file.pieces();
   for (const PieceElements piece : pieces) add_piece(file, piece, grid);
-  return soup_of(std::move(grid.points), std::move(grid.cells), pieces.size() > 1);
+  grid.pieces = pieces.size() > 1;
+  return grid;
 }
 
 /// The numbers of an attribute; as many as `initial` has, which stay where there are none.
@@ -179,7 +204,7 @@ const XmlElement* scalars_in(const VtkXmlFile& file, PieceElements piece,
   return nullptr;
 }
 
-PolygonSoup surface_of_image(const VtkXmlFile& file) {
+PolygonSoup surface_of_image(const VtkXmlFile& file, std::optional<double> level) {
   const auto pieces = file.pieces();
   if (pieces.size() != 1)
     throw vtu_refused("the image has " + std::to_string(pieces.size()) + " pieces, not one");
@@ -206,7 +231,7 @@ PolygonSoup surface_of_image(const VtkXmlFile& file) {
         image.values.assign(values.begin(), values.end());
       },
       scalars.values);
-  return zero_level(std::move(image));
+  return level_surface(std::move(image), level);
 }
 
 /// What is told of a file with several moments; arrays of the first precede those of others.
@@ -220,7 +245,8 @@ std::string moments_told(const VtkXmlFile& file) {
          "of its own";
 }
 
-PolygonSoup xml_surface(std::string_view text, const std::string& extension) {
+PolygonSoup xml_surface(std::string_view text, const std::string& extension,
+                        std::optional<double> level) {
   const VtkXmlFile file = vtk_xml_file(text);
   const std::map<std::string, std::string> extensions = {
       {"PolyData", ".vtp"}, {"UnstructuredGrid", ".vtu"}, {"ImageData", ".vti"}};
@@ -231,29 +257,55 @@ PolygonSoup xml_surface(std::string_view text, const std::string& extension) {
   if (own->second != extension)
     throw bad_input("the extension is not the content's: it holds " + file.type,
                     "rename it to " + own->second);
-  PolygonSoup soup = file.type == "ImageData" ? surface_of_image(file) : surface_of_grid(file);
+  if (file.type != "ImageData" && level) throw no_image();
+  PolygonSoup soup =
+      file.type == "ImageData" ? surface_of_image(file, level) : soup_of(grid_of(file));
   add_warning(soup, moments_told(file));
   return soup;
 }
 
-PolygonSoup surface_in(std::string_view text, const std::string& extension) {
+PolygonSoup surface_in(std::string_view text, const std::string& extension,
+                       std::optional<double> level) {
   if (text.empty()) throw bad_input("the file is empty", "export the mesh again");
-  return extension == ".vtk" ? legacy_surface(text) : xml_surface(text, extension);
+  if (extension != ".vtk") return xml_surface(text, extension, level);
+  LegacyContent content = legacy_content(text);
+  if (content.image) return level_surface(std::move(*content.image), level);
+  if (level) throw no_image();
+  return soup_of(std::move(content.grid));
 }
 
-}  // namespace
+std::vector<MaterialSurface> materials_in(std::string_view text, const std::string& extension) {
+  if (extension == ".vtk") return materials_of(legacy_content(text).grid);
+  const VtkXmlFile file = vtk_xml_file(text);
+  if (file.type != "UnstructuredGrid") return {};
+  return materials_of(grid_of(file));
+}
 
-PolygonSoup read_vtk_mesh(const std::filesystem::path& path) {
+/// Calls read(text, extension) for a file of VTK.
+template <class Read>
+auto read_file(const std::filesystem::path& path, const Read& read) {
   try {
     const std::string extension = lower(path.extension().string());
-    return surface_in(read_begun(path, memory_per_byte,
-                                 extension == ".vtk" ? check_start_of_legacy : check_start_of_xml),
-                      extension);
+    const std::string text = read_begun(
+        path, memory_per_byte, extension == ".vtk" ? check_start_of_legacy : check_start_of_xml);
+    return read(text, extension);
   } catch (const Error& error) {
     throw error.with_context({path.string()});
   } catch (const std::bad_alloc&) {
     throw bad_input({path.string()}, "it takes more memory than there is", "make it smaller");
   }
+}
+
+}  // namespace
+
+PolygonSoup read_vtk_mesh(const std::filesystem::path& path, std::optional<double> level) {
+  return read_file(path, [&](std::string_view text, const std::string& extension) {
+    return surface_in(text, extension, level);
+  });
+}
+
+std::vector<MaterialSurface> read_vtk_materials(const std::filesystem::path& path) {
+  return read_file(path, materials_in);
 }
 
 }  // namespace sinew

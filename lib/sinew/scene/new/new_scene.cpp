@@ -10,12 +10,14 @@
 #include <sinew/core/error.h>
 #include <sinew/core/text.h>
 #include <sinew/fill/fill_limits.h>
+#include <sinew/io/vtk/vtk_mesh.h>
 #include <sinew/material/laws.h>
 #include <sinew/mesh/clean.h>
 #include <sinew/mesh/refine.h>
 #include <sinew/mesh/solids.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/repair/curve_skeleton.h>
+#include <sinew/repair/read_surface.h>
 #include <sinew/rig/limbs.h>
 #include <sinew/scene/body_mesh.h>
 #include <sinew/scene/filling.h>
@@ -206,6 +208,34 @@ void refine_mesh(const std::string& scene, const Surface& surface, NewChoices& c
   body.unit = LengthUnit::m, body.up = Axis::z, body.forward.reset(), body.close_holes = false;
 }
 
+/// Finite element meshes number the materials of their cells: all but the largest one become parts
+/// of the body, each in a file of its own, with the modulus of all until a person gives another.
+void add_materials(const NewSceneFiles& files, const BodyOptions& placed, NewChoices& choices,
+                   NewScene& made) {
+  const std::string extension = lower(std::filesystem::path(files.mesh).extension().string());
+  if (files.figure != nullptr || (extension != ".vtu" && extension != ".vtk")) return;
+  std::vector<MaterialSurface> materials = read_vtk_materials(files.mesh);
+  if (materials.size() < 2) return;
+  std::vector<double> sizes;
+  for (const MaterialSurface& one : materials)
+    sizes.push_back(volume(clean(one.surface).triangles));
+  const auto largest = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
+  choices.materials = "parts by the numbers of materials of the file's cells; the others have " +
+                      std::to_string(materials[static_cast<std::size_t>(largest)].number);
+  materials.erase(materials.begin() + largest);
+  for (MaterialSurface& one : materials) {
+    std::filesystem::path path = files.scene;
+    path.replace_filename(path.stem().string() + "_material_" + std::to_string(one.number) +
+                          ".ply");
+    LocalMaterialSettings local{"material " + std::to_string(one.number)};
+    local.young_modulus = choices.settings.material.young_modulus;
+    local.part.mesh = path.string();
+    choices.settings.materials.push_back(local);
+    if (!made.mesh.empty()) place(one.surface, placed);
+    made.parts.emplace_back(path.string(), ply_text(one.surface));
+  }
+}
+
 void choose_material(const Surface& surface, NewChoices& choices) {
   const double ratio = extent(surface) / usual_size;
   choices.settings.material.model = MaterialModel::bonded;
@@ -286,9 +316,12 @@ NewScene new_scene(const NewSceneFiles& files) {
   try_out(surface, choices);
   if (settings.motion.begin == Begin::automatic) choose_contacts(settings);
   NewScene made;
+  const BodyOptions placed = settings.body;
   refine_mesh(files.scene, surface, choices, made);
+  add_materials(files, placed, choices, made);
   made.text = new_scene_text(choices, std::filesystem::path(files.scene).parent_path());
   made.unit = choices.unit, made.axes = choices.axes, made.holes = choices.holes;
+  made.materials = choices.materials;
   made.bones = choices.bones, made.pose = choices.pose, made.size = choices.size,
   made.warning = warning, made.time = choices.time;
   return made;

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sinew/body/body.h>
@@ -44,11 +45,13 @@ struct NewSceneFiles {
 };
 
 struct NewScene {
-  std::string text;                     ///< text of the file, with comments
-  std::string mesh, mesh_text;          ///< a file that it needs, beside it; "": none
+  std::string text;             ///< text of the file, with comments
+  std::string mesh, mesh_text;  ///< a file that it needs, beside it; "": none
+  std::vector<std::pair<std::string, std::string>> parts = {};  ///< others: path and text
   std::string unit, axes, bones, size;  ///< one line each: what was chosen, and why
   std::string pose;                     ///< why the rest pose is one of the clip; "": it is not
   std::string holes;                    ///< holes that are closed; "": none
+  std::string materials;                ///< of the mesh's cells; "": one
   std::string warning;                  ///< warning of the mesh's reader; "": none
   std::string time;                     ///< foreseen for a run on this machine; "": not known
 };
@@ -120,6 +123,7 @@ struct NewChoices {
   bool begins_posed = false;            ///< it begins far from rest
   bool hollow = false;                  ///< a shell, whose bones lie outside of it
   std::string holes = {};               ///< holes that are closed; "": none
+  std::string materials = {};           ///< of the mesh's cells; "": one
   std::string changed = {};             ///< what the written mesh is; "": the given one
   bool quick = false;                   ///< runs in ten seconds or so, however coarse
   std::string clip = {};                ///< asked for; "": any

@@ -71,6 +71,16 @@ std::string material_text(const NewChoices& choices) {
          key_text(s, "material", "young_modulus");
 }
 
+std::string parts_text(const NewChoices& choices, const std::filesystem::path& folder) {
+  if (choices.materials.empty()) return "";
+  std::string text =
+      "\nmaterials:\n" + note("Of the mesh: " + choices.materials + ". Give each its own modulus.");
+  for (const LocalMaterialSettings& part : choices.settings.materials)
+    text += "  - {name: " + part.name + ", young_modulus: " + number_text(*part.young_modulus) +
+            ", mesh: " + quoted(path_in(folder, part.part.mesh)) + "}\n";
+  return text;
+}
+
 std::string bone_text(const BoneDefinition& bone, const Rounded& rounded) {
   std::string text = "    - {name: " + bone.name;
   if (!bone.parent.empty()) text += ", parent: " + bone.parent;
@@ -181,8 +191,8 @@ std::string new_scene_text(const NewChoices& choices, const std::filesystem::pat
   std::string text = "# Made by sinew new. Lengths in meters, times in seconds; z points up.\n";
   if (choices.quick) text += "# By --quick: few particles, few pictures, 2 s at most.\n";
   text += '\n';
-  text += body_text(choices, folder) + material_text(choices) + skeleton_text(choices, folder) +
-          motion_text(choices, folder) + binding_text(choices);
+  text += body_text(choices, folder) + material_text(choices) + parts_text(choices, folder) +
+          skeleton_text(choices, folder) + motion_text(choices, folder) + binding_text(choices);
   text += "\nsolver:\n" + key_text(s, "solver", "duration");
   text +=
       note("No gravity, so that the body moves by its bones alone; [0, 0, -9.81] is the Earth's.");

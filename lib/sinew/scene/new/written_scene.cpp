@@ -58,6 +58,7 @@ WrittenScene write_new_scene(const NewSceneWish& wish) {
     write_file(scene.mesh, scene.mesh_text);
     written.mesh = scene.mesh;
   }
+  for (const auto& [path, text] : scene.parts) write_file(path, text);
   write_file(files.scene, scene.text);
   return written;
 }

@@ -41,11 +41,11 @@ void read_key(const YamlNode& item, const std::string& path, std::span<const Fie
               settings.places.size() < max_places ? settings.places : forgotten);
 }
 
-/// Keys of an entry, with ascending times.
+/// Keys of an entry, in its list `list`, with ascending times.
 template <class Key>
 void read_keys(const YamlNode& node, const std::string& path, std::span<const Field<Key>> rows,
-               std::vector<Key>& keys, Settings& settings) {
-  read_entries(node, path, "keys", keys, settings.places,
+               std::vector<Key>& keys, Settings& settings, std::string_view list = "keys") {
+  read_entries(node, path, list, keys, settings.places,
                [&](const YamlNode& item, const std::string& below, Key& key) {
                  read_key(item, below, rows, key, settings);
                  if (keys.size() > 1 && !(key.time > keys[keys.size() - 2].time))
