@@ -237,6 +237,18 @@ def frd(kind):
     return (text + " 9999\n").encode()
 
 
+MESSAGES = (
+    {"do": "turn", "bone": "b", "axis": [0, 1, 0], "degrees": 30, "id": 1}, {"do": "aim", "bone": 1, "to": [1, 0, 2]},
+    {"do": "reach", "bone": "b", "to": [1, 0.5, 1.5]}, {"do": "move", "bone": 0, "to": [0.5, 0.6, 0]},
+    {"do": "grab", "bone": "a"}, {"do": "release"}, {"do": "undo"},
+    {"do": "pull", "particle": 3, "to": [0.1, 0, 0], "relative": True, "id": 2}, {"do": "pull", "to": None},
+    {"do": "set", "key": "tip", "value": 2, "id": 3}, {"do": "set", "key": "m", "value": 0.5},
+    {"do": "set", "key": "friction of floor", "value": 0}, {"do": "set", "key": "solver.gravity", "value": "[0, 0, -9.81]"},
+    {"do": "set", "settings": {"material.young_modulus": 2e4, "material.damping_ratio": "0.1"}, "id": "x"},
+    {"do": "show", "particles": True, "skin": False, "field": "speed", "holds_range": True}, {"do": "pace", "value": 0.5},
+    {"do": "step"}, {"do": "seek", "time": 0.1}, {"do": "rewind", "seconds": 0.05, "id": 4}, {"do": "reset"},
+    {"do": "play"}, {"do": "pause"}, {"do": "save", "name": "mine", "id": 5}, {"do": "hello"})
+
 RECORD = b"""{
   "program": "sinew", "version": "0.1.0", "command": ["sinew-simulate", "few.yaml"], "host": "here",
   "status": "finished", "particles": 5, "frames": 3, "steps": 12, "time_step": 0.0035, "state_hash": "0123456789abcdef",
@@ -303,6 +315,7 @@ def main():
     for name, text in SCENES.items():
         put("scene", name, text.encode())
     put("record", "run", RECORD)
+    put("play", "all_actions", "\n".join(map(json.dumps, MESSAGES)).encode())
     run_files(binaries, put)
 
 

@@ -16,6 +16,7 @@ void frd(std::string_view bytes);
 void gltf(std::string_view bytes);
 void obj(std::string_view bytes);
 void off(std::string_view bytes);
+void play(std::string_view bytes);
 void ply(std::string_view bytes);
 void pvd(std::string_view bytes);
 void record(std::string_view bytes);

@@ -181,12 +181,12 @@ TEST(SessionsOnAFloor, ChangeItsFriction) {
     return sum / static_cast<double>(all.size());
   };
   for (int k = 0; k < 30; ++k) session.advance();
-  const double held = speed();
+  const double before = speed();
   session.knobs().set("friction of floor", 0);
   EXPECT_THROW(session.knobs().set("friction of floor", -1), Error);
   for (int k = 0; k < 30; ++k) session.advance();
-  const double free = speed() - held, passed = 28 * session.grid().interval();
-  EXPECT_LT(std::abs(held), 0.1);
+  const double free = speed() - before, passed = 28 * session.grid().interval();
+  EXPECT_LT(std::abs(before), 0.1);
   EXPECT_NEAR(free, 3 * passed, 0.1 * 3 * passed);  // as it falls along the floor
   const RunResult run = simulate(read_scene(session.save("smooth")), {folder.path() / "run"});
   EXPECT_EQ(parsed_json<nlohmann::json>(run.record)["state_hash"], session.hash());

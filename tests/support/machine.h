@@ -65,7 +65,8 @@ class Machine {
     World made = world;
     hold(made, rest.size());
     body.world = std::make_shared<const World>(std::move(made));
-    set_damping(settings, body);
+    std::optional<ElasticModes> modes;
+    set_damping(settings, body, modes);
     return body;
   }
 

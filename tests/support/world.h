@@ -137,7 +137,8 @@ inline Particles particles_of(const Settings& settings, const Points& rest) {
 
 inline Body make_body(const Settings& settings, const Points& rest) {
   Body body = make_body(settings, {}, skeleton_of(settings), particles_of(settings, rest));
-  set_damping(settings, body);
+  std::optional<ElasticModes> modes;
+  set_damping(settings, body, modes);
   return body;
 }
 

@@ -6,7 +6,7 @@ lost.
 usage: play_test.py BIN SOURCE [PICTURE_DIR]     needs chromium-driver; with PICTURE_DIR it leaves screenshots there
 """
 import base64
-import csv
+import contextlib
 import json
 import os
 import random
@@ -190,7 +190,7 @@ class Plays(unittest.TestCase):
         client.send(json.dumps({"do": "seek", "time": 0.3}))  # whatever is looked at
         time.sleep(1.5)
         self.assertEqual(self.played.end(signal.SIGKILL), -9)
-        self.assertGreater(len(list(csv.reader((self.root / "out/session.keys.csv").open()))), 60)
+        self.assertGreater(len((self.root / "out/session.keys.csv").read_text().splitlines()), 60)
         out = self.root / "run"
         sinew("simulate", self.root / "out/session.yaml", "-o", out, check=0)
         times = json.loads((out / "run.json").read_text())
@@ -248,8 +248,9 @@ class Plays(unittest.TestCase):
                 pass
             raise ConnectionError
         silent = self.client()  # never reads
-        for _ in range(3000):
-            silent.send(json.dumps({"do": "fly", "id": 1}))
+        with contextlib.suppress(ConnectionError):  # it is left
+            for _ in range(3000):
+                silent.send(json.dumps({"do": "fly", "id": 1}))
         self.assertIsNone(self.played.program.poll())
         self.assertFalse((self.root / "x.yaml").exists())
 

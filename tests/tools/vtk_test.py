@@ -199,7 +199,7 @@ class Vtk(unittest.TestCase):
             made = json.loads(sinew("new", path, "-o", scene, "--count", 3000, "--force", "--json", check=0).stdout)
             self.assertIn("materials", made)
             self.assert_measures(self.folder / "bar_material_3.ply", (1 / 64, 6 / 16))
-            sinew("simulate", scene, "-o", out, "--force", "--quiet", "--set", "solver.duration=0.02", check=0)
+            sinew("simulate", scene, "-o", out, "--force", "--quiet", "--set", "solver.duration=0.05", check=0)
             part, = json.loads((out / "run.json").read_text())["materials"]
             whole = json.loads((out / "run.json").read_text())["particles"]
             self.assertEqual(part["name"], "material 3")

@@ -81,6 +81,13 @@ Settings still_scene(const Prepared& prepared) {
   return scene;
 }
 
+void check_step(const Settings& scene, double step) {
+  constexpr double shortest = 1e-7;  // s: no body of any size plays in such steps
+  if (!(step > shortest))
+    refuse(scene, "solver", "steps of " + three_digits(step) + " s",
+           "give a longer time_step, a softer material or larger particles");
+}
+
 bool twists(const Motion& motion) {
   return std::any_of(motion.tracks.begin(), motion.tracks.end(), [](const Track& track) {
     return std::any_of(track.twist.values.begin(), track.twist.values.end(),
@@ -105,6 +112,7 @@ Session::Session(const Settings& scene, SessionOptions options) : options_(std::
   skeleton_ = first.body.skeleton;
   clip_ = first.motion;
   const HandSpeed speed = speed_for(first.body);
+  check_step(scene, max_step(first, speed));
   hand_.emplace(skeleton_, speed);
   recording_.emplace(still_scene(first), skeleton_, key_grid(max_step(first, speed)),
                      twists(first.motion));

@@ -93,7 +93,7 @@ struct Prepared {
   /// Flesh that passes through flesh: the pairs of body.pass_through, with what was found of them.
   std::vector<Intrusion> passing = {};
   FrameTimes frames;
-  std::optional<ElasticModes> modes = {};  ///< by which damping was chosen, if it was
+  std::optional<ElasticModes> modes = {};  ///< modes for which damping was chosen, if it was
   double seconds_filling = 0, seconds_binding = 0;
 };
 

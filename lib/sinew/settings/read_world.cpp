@@ -157,10 +157,10 @@ void check_region(const RegionSettings& region, const std::string& path, const S
 namespace {
 
 std::string friction_text(const ObstacleSettings& obstacle, bool first) {
-  return list_text("friction_keys", obstacle.friction_keys, 6,
-                   [&](const ValueKeySettings& key, bool first_key) {
-                     return entry_text(friction_key_fields(), key, 8, first && first_key);
-                   });
+  const auto key_text = [&](const ValueKeySettings& key, bool first_key) {
+    return entry_text(friction_key_fields(), key, 8, first && first_key);
+  };
+  return list_text("friction_keys", obstacle.friction_keys, 6, key_text);
 }
 
 }  // namespace

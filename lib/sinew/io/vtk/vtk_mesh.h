@@ -24,7 +24,7 @@ PolygonSoup read_vtk_mesh(const std::filesystem::path& path, std::optional<doubl
 
 /// The surface of the cells of one material.
 struct MaterialSurface {
-  std::int64_t number;  ///< by the array of the file that names materials
+  std::int64_t number;  ///< value of the array that numbers materials
   PolygonSoup surface;
 };
 

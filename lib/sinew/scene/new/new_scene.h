@@ -51,7 +51,7 @@ struct NewScene {
   std::string unit, axes, bones, size;  ///< one line each: what was chosen, and why
   std::string pose;                     ///< why the rest pose is one of the clip; "": it is not
   std::string holes;                    ///< holes that are closed; "": none
-  std::string materials;                ///< of the mesh's cells; "": one
+  std::string materials;                ///< materials of the mesh's cells; "": one
   std::string warning;                  ///< warning of the mesh's reader; "": none
   std::string time;                     ///< foreseen for a run on this machine; "": not known
 };
@@ -123,7 +123,7 @@ struct NewChoices {
   bool begins_posed = false;            ///< it begins far from rest
   bool hollow = false;                  ///< a shell, whose bones lie outside of it
   std::string holes = {};               ///< holes that are closed; "": none
-  std::string materials = {};           ///< of the mesh's cells; "": one
+  std::string materials = {};           ///< materials of the mesh's cells; "": one
   std::string changed = {};             ///< what the written mesh is; "": the given one
   bool quick = false;                   ///< runs in ten seconds or so, however coarse
   std::string clip = {};                ///< asked for; "": any
