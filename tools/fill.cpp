@@ -164,7 +164,6 @@ int main(int argc, char** argv) {
       {"fill",
        "Fills a mesh, or the mesh of a scene, with closest-packed particles.",
        {"sinew fill configs/box_bend.yaml",
-        "sinew fill body.obj --radius 0.01 --to lammps -o body.data",
         "sinew fill body.obj --radius 0.01 --to tetrahedra -o body.msh",
         "sinew fill body.stl --unit mm --count 100000 --packing hcp --verify"}},
       [&](OptionList& list) { declare(list, options); },

@@ -147,6 +147,40 @@ TEST_F(GltfCharacter, MakesBonesOfAnimatedNodes) {
   expect_ends_with(skinned_corners(rig, pose_of(rig, 1)), corners_at(hand));
 }
 
+/// As of FBX: an armature beside props, with a skin that no mesh uses.
+TEST_F(GltfCharacter, HoldsStillMeshesBesideAnArmatureThatMoves) {
+  Gltf gltf = robot();
+  const int tip = gltf.node({{"name", "tip"}, {"translation", {0, 0, 1}}});
+  const int root = gltf.node({{"name", "root"}, {"children", {tip}}});
+  gltf.json["scenes"][0]["nodes"].push_back(root);
+  gltf.add("skins", {{"joints", {root, tip}}});
+  add_keys<Quat>(gltf, root, "rotation", "LINEAR", {0, 1}, {about_y(0), about_y(1)});
+  const SkinnedRig rig = read(gltf);
+  const std::vector<Bone>& bones = rig.rig.skeleton.bones;
+  ASSERT_EQ(bones.size(), 4u);
+  EXPECT_EQ(bones[static_cast<std::size_t>(rig.weights.of(0)[0].bone)].name, "base");
+  EXPECT_EQ(bones[static_cast<std::size_t>(rig.weights.of(4)[0].bone)].name, "arm");
+}
+
+/// An avatar without a skin or a clip, in the words of both versions of VRM.
+TEST_F(GltfCharacter, MakesBonesOfTheNodesThatVrmNames) {
+  const Json list = {{{"bone", "hips"}, {"node", 0}},
+                     {{"bone", "spine"}, {"node", 1}},
+                     {{"bone", "head"}, {"node", 2}},
+                     {{"bone", "jaw"}, {"node", 99}}};
+  const Json named = {{"hips", {{"node", 0}}}, {"spine", {{"node", 1}}}, {"head", {{"node", 2}}}};
+  for (const auto& [extension, bones] : {std::pair{"VRM", list}, {"VRMC_vrm", named}}) {
+    Gltf gltf = robot();
+    gltf.json.erase("animations");
+    gltf.json["extensions"][extension]["humanoid"]["humanBones"] = bones;
+    const SkinnedRig rig = read(gltf);
+    ASSERT_EQ(rig.rig.skeleton.size(), 3u) << extension;
+    EXPECT_EQ(rig.rig.skeleton.bones[2].name, "hand");
+    EXPECT_EQ(rig.rig.skeleton.bones[2].parent, 1);
+    EXPECT_EQ(rig.weights.of(8)[0].bone, 2);
+  }
+}
+
 TEST_F(GltfCharacter, JoinsUnnamedClipsOfOneLength) {
   Gltf gltf = robot();
   add_keys<Quat>(gltf, 2, "rotation", "LINEAR", {0, 1}, {about_y(0), about_y(2)}, 1);

@@ -74,6 +74,36 @@ TEST(ThinParts, OfFewParticlesPullAsIfTheyHadMore) {
   }
 }
 
+/// Two legs beside each other along any axis: neither bends into the other.
+TEST(NewJoints, BendWhereThereIsRoom) {
+  constexpr double apart = 0.1, high = 0.6;
+  for (const Vec3& side : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(-Vec3::UnitX())}) {
+    Settings settings;
+    settings.body.radius = r;
+    settings.bones = {
+        {"hip", "", Vec3(0, 0, high), Vec3(0, 0, 1.3 * high)},
+        {"one", "hip", Vec3(apart / 2 * side + high * Vec3::UnitZ()), Vec3(apart / 2 * side)},
+        {"other", "hip", Vec3(-apart / 2 * side + high * Vec3::UnitZ()), Vec3(-apart / 2 * side)}};
+    Points rest;
+    for (const Vec3& at : test::fcc_box(15, 15, 60, r)) {
+      const bool leg = at.z() < high && std::abs(std::abs(at.dot(side)) - apart / 2) < 0.03 &&
+                       std::abs(at.cross(Vec3::UnitZ()).dot(side)) < 0.03;
+      if (leg || at.z() >= high) rest.push_back(at);
+    }
+    const Body body = test::make_body(settings, rest);
+    NewChoices choices;
+    bend_joints(body, choices);
+    ASSERT_EQ(choices.settings.tracks.size(), 2u);
+    for (const TrackDefinition& track : choices.settings.tracks) {
+      const double sign = track.bone == "one" ? 1 : -1;
+      const KeyDefinition& bent = track.keys[track.keys.size() - 2];
+      const Vec3 tail =
+          Quat(Eigen::AngleAxisd(radians(*bent.angle), *bent.axis)) * Vec3(0, 0, -high);
+      EXPECT_GT(sign * tail.dot(side), -0.01) << track.bone << side.transpose();
+    }
+  }
+}
+
 TEST(NewJoints, AreThoseWithFleshOnBothSides) {
   const Body body = test::make_body(test::box_scene(15), test::fcc_box(7, 7, 15, r));
   for (const int joint : joints_that_skin_follows(body)) {

@@ -95,6 +95,7 @@ std::vector<Field<PartOptions>> make_part() {
 
 std::vector<std::string_view> names_of_models() {
   std::vector<std::string_view> names;
+  names.reserve(material_models.size());
   for (const MaterialModelRow& model : material_models) names.push_back(model.name);
   return names;
 }

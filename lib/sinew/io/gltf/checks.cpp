@@ -173,6 +173,13 @@ void check_corners(const GltfAccessor& accessor, const std::string& user) {
   if (accessor.sparse) throw bad_input(user + " are sparse", "export without sparse accessors");
 }
 
+/// Refuses those of surfaces that this build does not unpack.
+const GltfAccessor& data_of(const GltfDocument& document, int index, const std::string& user) {
+  const GltfAccessor& accessor = accessor_of(document, index, user);
+  if (accessor.view >= 0 || accessor.sparse) return accessor;
+  throw bad_input(user + " have no data", "export without mesh compression");
+}
+
 void check_count(GltfMode mode, std::int64_t corners, const std::string& user) {
   if (corners < 3 || (mode == GltfMode::triangles && corners % 3 != 0))
     throw damaged_gltf(user + " has " + std::to_string(corners) +
@@ -182,12 +189,12 @@ void check_count(GltfMode mode, std::int64_t corners, const std::string& user) {
 void check_surface(const GltfDocument& document, const GltfPrimitive& primitive,
                    const std::string& user) {
   const std::string positions = user + "'s positions", indices = user + "'s indices";
-  const GltfAccessor* corners = &accessor_of(document, primitive.positions(), positions);
+  const GltfAccessor* corners = &data_of(document, primitive.positions(), positions);
   check_positions(*corners, positions);
   for (const int target : primitive.targets)
     if (target >= 0) check_target(document, target, corners->count, user + "'s morph targets");
   if (primitive.indices >= 0) {
-    corners = &accessor_of(document, primitive.indices, indices);
+    corners = &data_of(document, primitive.indices, indices);
     check_corners(*corners, indices);
   }
   check_count(primitive.mode, corners->count, user);
@@ -274,8 +281,10 @@ CheckedGltf checked(const GltfContainer& container, const std::filesystem::path&
 const GltfAccessor& accessor_of(const GltfDocument& document, int index, const std::string& user) {
   check_index(index, document.accessors, user, "accessor");
   const GltfAccessor& accessor = document.accessors[static_cast<std::size_t>(index)];
-  if (accessor.view >= 0 || accessor.sparse) return accessor;
-  throw bad_input(user + " have no data", "export without mesh compression");
+  constexpr std::int64_t max_zeros = 1'000'000;
+  if (accessor.view < 0 && !accessor.sparse && accessor.count > max_zeros)
+    throw damaged_gltf(user + " are " + std::to_string(accessor.count) + " zeros");
+  return accessor;
 }
 
 CheckedGltf checked_gltf(const std::filesystem::path& path) {

@@ -44,7 +44,8 @@ void check_gltf_skins(const GltfDocument& document);
 /// two samplers. Channels that move no node are dropped.
 void check_gltf_animations(GltfDocument& document);
 
-/// The accessor of that index, which must exist and have data. `user` is a plural: "its times".
+/// The accessor of that index, which must exist. `user` is a plural: "its times". Without data it
+/// is of zeros, a million at most.
 const GltfAccessor& accessor_of(const GltfDocument& document, int index, const std::string& user);
 
 /// Calls visit(primitive, "meshes[1].primitives[2]") for all of the file.

@@ -103,6 +103,14 @@ class Field {
     return items;
   }
 
+  std::vector<Field> members() const {  ///< values of an object
+    std::vector<Field> members;
+    if (!given()) return members;
+    for (const auto& [key, value] : object().items())
+      members.push_back({&value, name_ + '.' + shown(key)});
+    return members;
+  }
+
   std::int64_t whole(std::int64_t least, std::int64_t most = max_gltf_bytes) const {
     return whole_in(given_value(), name_, least, most);
   }
@@ -359,6 +367,20 @@ int components_of(std::string_view type) {
   return found == types.end() ? 0 : found->second;
 }
 
+namespace {
+
+/// VRM 0.x has a list, 1.0 an object.
+std::vector<int> humanoid_of(const Field& extensions) {
+  std::vector<int> nodes;
+  for (const Field& bone : extensions["VRM"]["humanoid"]["humanBones"].items())
+    nodes.push_back(bone["node"].index_or_none());
+  for (const Field& bone : extensions["VRMC_vrm"]["humanoid"]["humanBones"].members())
+    nodes.push_back(bone["node"].index_or_none());
+  return nodes;
+}
+
+}  // namespace
+
 GltfDocument gltf_document(std::string_view json) {
   const Json parsed_json = parsed(json);
   const Field root(parsed_json);
@@ -377,6 +399,7 @@ GltfDocument gltf_document(std::string_view json) {
   for (const Field& scene : root["scenes"].items())
     document.scenes.push_back(scene["nodes"].indices());
   document.scene = root["scene"].index_or_none();
+  document.humanoid = humanoid_of(root["extensions"]);
   return document;
 }
 

@@ -139,6 +139,7 @@ struct GltfDocument {
   std::vector<GltfAnimation> animations;
   std::vector<std::vector<int>> scenes;  ///< the topmost nodes of each
   int scene = -1;                        ///< the default one
+  std::vector<int> humanoid;             ///< nodes that VRM names as bones; -1: none
   bool moves_morphs = false;             ///< whether an animation changes weights of morph targets
 };
 

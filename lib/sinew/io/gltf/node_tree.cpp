@@ -55,13 +55,20 @@ void check_tree(const GltfTree& tree) {
     throw damaged_gltf("some of its nodes are children of themselves");
 }
 
+/// Whether a mesh that is shown has a skin.
+bool shows_skins(const CheckedGltf& gltf) {
+  return std::any_of(gltf.shown.begin(), gltf.shown.end(), [&](int index) {
+    const GltfNode& node = gltf.document.nodes[static_cast<std::size_t>(index)];
+    return node.mesh >= 0 && node.skin >= 0;
+  });
+}
+
 std::vector<bool> skins_in_use(const CheckedGltf& gltf) {
-  std::vector<bool> used(gltf.document.skins.size());
+  std::vector<bool> used(gltf.document.skins.size(), !shows_skins(gltf));
   for (const int index : gltf.shown) {
     const GltfNode& node = gltf.document.nodes[static_cast<std::size_t>(index)];
     if (node.mesh >= 0 && node.skin >= 0) used[static_cast<std::size_t>(node.skin)] = true;
   }
-  if (std::find(used.begin(), used.end(), true) == used.end()) used.assign(used.size(), true);
   return used;
 }
 
@@ -107,7 +114,7 @@ std::vector<bool> moved_nodes(const GltfDocument& document) {
 /// file without skins all above. A file without meshes has its animated nodes.
 void add_animated(const CheckedGltf& gltf, const std::vector<bool>& animated,
                   std::vector<bool>& bones) {
-  const bool skinned = !gltf.document.skins.empty();
+  const bool skinned = shows_skins(gltf);
   bool meshes = false, held = false;
   int loose = -1;  // the topmost node above a mesh that nothing moves
   for (const int index : gltf.shown) {
@@ -125,7 +132,7 @@ void add_animated(const CheckedGltf& gltf, const std::vector<bool>& animated,
     if (!moves && loose < 0) loose = top;
   }
   if (!skinned && held && loose >= 0) bones[static_cast<std::size_t>(loose)] = true;
-  if (!skinned && !meshes) bones = animated;
+  if (gltf.document.skins.empty() && !meshes) bones = animated;
 }
 
 /// The nodes that are bones.
@@ -136,6 +143,11 @@ std::vector<bool> bone_nodes(const CheckedGltf& gltf, const std::vector<Affine>&
   for (std::size_t i = 0; i < used.size(); ++i)
     for (const int node : used[i] ? document.skins[i].joints : std::vector<int>())
       bones[static_cast<std::size_t>(node)] = true;
+  if (std::find(used.begin(), used.end(), true) == used.end())  // an avatar of rigid parts
+    for (const int node : document.humanoid)
+      if (node >= 0 && node < static_cast<int>(bones.size()) &&
+          !is_flat(global[static_cast<std::size_t>(node)]))
+        bones[static_cast<std::size_t>(node)] = true;
   std::vector<bool> animated = moved_nodes(document);
   for (std::size_t i = 0; i < bones.size(); ++i)
     animated[i] = bones[i] || (animated[i] && !is_flat(global[i]));
@@ -186,7 +198,7 @@ bool moves(const Affine& transform, const Vec3& place, double length) {
 class Binder {
  public:
   explicit Binder(const CheckedGltf& gltf)
-      : document_(gltf.document), global_(resting_places(gltf)) {
+      : document_(gltf.document), global_(resting_places(gltf)), skinned_(shows_skins(gltf)) {
     const std::vector<bool> used = skins_in_use(gltf);
     pose_.joints = joints_of(gltf.tree, bone_nodes(gltf, global_), pose_.holders);
     pose_.meshes.assign(used.size(), Affine::Identity());
@@ -285,15 +297,19 @@ class Binder {
             below(joint(static_cast<int>(i)).parent, joint(static_cast<int>(i)).node));
     for (std::size_t node = 0; node < global_.size(); ++node)
       pose_.nodes[node] = below(pose_.holders[node], static_cast<int>(node));
-    if (document_.skins.empty()) hold_the_rest();
+    if (!skinned_) hold_the_rest();
   }
 
-  /// Gives meshes that nothing moves to the bone that nothing moves, if there is one.
+  /// Gives meshes that nothing moves to the last bone that nothing moves, if there is one.
   void hold_the_rest() {
-    const std::vector<bool> moved = moved_nodes(document_);
+    const std::vector<bool> animated = moved_nodes(document_);
+    std::vector<bool> moved;
     int still = -1;
-    for (std::size_t i = 0; i < pose_.joints.size(); ++i)
-      if (!moved[static_cast<std::size_t>(pose_.joints[i].node)]) still = static_cast<int>(i);
+    for (const GltfJoint& one : pose_.joints) {
+      moved.push_back(animated[static_cast<std::size_t>(one.node)] ||
+                      (one.parent >= 0 && moved[static_cast<std::size_t>(one.parent)]));
+      if (!moved.back()) still = static_cast<int>(moved.size()) - 1;
+    }
     std::replace(pose_.holders.begin(), pose_.holders.end(), -1, still);
   }
 
@@ -321,6 +337,7 @@ class Binder {
 
   const GltfDocument& document_;
   std::vector<Affine> global_;
+  bool skinned_;             // whether meshes have skins
   std::vector<bool> bound_;  // whether a skin has bound each joint
   std::size_t uneven_ = 0;   // joints
   double min_evenness_ = 1;

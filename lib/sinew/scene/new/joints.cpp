@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <sinew/core/cell_grid.h>
+
 namespace sinew {
 namespace {
 
@@ -20,6 +22,54 @@ Vec3 bending_axis(const Bone& bone, const Bone& parent) {
   const Vec3 bent = parent.axis().cross(bone.axis());
   return bent.norm() > already_bent ? bent.normalized() : Vec3(bone.rest.rotation.col(1));
 }
+
+/// Where limbs run into the rest of the body when their joints bend.
+class Room {
+ public:
+  explicit Room(const Body& body) : body_(body), grid_(body.rest, touching()) {}
+
+  /// The axis of four, the preferred one first, about which the fewest particles do.
+  Vec3 axis_for(int joint, const Vec3& preferred) const {
+    const Vec3 across = body_.skeleton.bones[joint].axis().cross(preferred).normalized();
+    Vec3 best = preferred;
+    std::size_t fewest = hits(joint, preferred);
+    for (const Vec3& axis : {Vec3(-preferred), across, Vec3(-across)})
+      if (const std::size_t count = fewest > 0 ? hits(joint, axis) : 0; count < fewest)
+        best = axis, fewest = count;
+    return best;
+  }
+
+ private:
+  double touching() const { return 2 * body_.material.pair.r; }
+
+  /// Particles of the limb that come to touch others that lay apart, of bones but the one above.
+  std::size_t hits(int joint, const Vec3& axis) const {
+    const std::vector<Bone>& bones = body_.skeleton.bones;
+    std::vector<bool> below(bones.size());
+    for (std::size_t b = 0; b < bones.size(); ++b)
+      below[b] =
+          static_cast<int>(b) == joint || (bones[b].parent != no_bone && below[bones[b].parent]);
+    const Vec3 head = bones[joint].head();
+    const Quat turn(Eigen::AngleAxisd(radians(bend_angle), axis));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < body_.rest.size(); ++i) {
+      if (const int bone = body_.binding.bone(i); bone == no_bone || !below[bone]) continue;
+      const Vec3 bent = head + turn * (body_.rest[i] - head);
+      bool hit = false;
+      grid_.for_each_near(bent, [&](std::uint32_t j) {
+        const int other = body_.binding.bone(j);
+        hit = hit || (other != no_bone && !below[other] && other != bones[joint].parent &&
+                      (bent - body_.rest[j]).norm() < touching() &&
+                      (body_.rest[i] - body_.rest[j]).norm() > 1.5 * touching());
+      });
+      count += hit;
+    }
+    return count;
+  }
+
+  const Body& body_;
+  CellGrid grid_;
+};
 
 TrackDefinition bending(const std::string& bone, const Vec3& axis, double begin) {
   TrackDefinition track;
@@ -59,10 +109,12 @@ void bend_joints(const Body& body, NewChoices& choices) {
   const std::vector<int> joints = joints_that_skin_follows(body);
   if (joints.empty()) return;
   choices.settings.tracks.clear();
+  const Room room(body);
   const Mat3 to_file = placement_of(choices.settings.skeleton).turn.transpose();
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const Bone& bone = body.skeleton.bones[joints[k]];
-    const Vec3 axis = to_file * bending_axis(bone, body.skeleton.bones[bone.parent]);
+    const Vec3 usual = bending_axis(bone, body.skeleton.bones[bone.parent]);
+    const Vec3 axis = to_file * room.axis_for(joints[k], usual);
     choices.settings.tracks.push_back(
         bending(bone.name, axis, joint_every * static_cast<double>(k)));
   }

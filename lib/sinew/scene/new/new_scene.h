@@ -154,8 +154,8 @@ void use_rig(const RigBody& figure, const Surface& surface, NewChoices& choices)
 /// hold the most particles. Ascending.
 std::vector<int> joints_that_skin_follows(const Body& body);
 
-/// Bends them one after the other, as they are bent at rest, and back. Leaves the motion as it is
-/// where there are none.
+/// Bends them one after the other, as they are bent at rest or where the limb has room, and back.
+/// Leaves the motion as it is where there are none.
 void bend_joints(const Body& body, NewChoices& choices);
 
 }  // namespace sinew

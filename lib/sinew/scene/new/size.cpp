@@ -31,7 +31,7 @@ constexpr double max_loose = 0.01;      // fraction of the particles, such as si
 constexpr double min_within = 0.1;      // fraction of the particles, with neighbors on all sides
 // What a run may take: particles times steps, and particles. About as long as drawing it; and more
 // where limbs are thin, but for those that hold a twentieth of the body.
-constexpr double usual_work = 5e8, usual_particles = 1e5, largest_work = 2e9, max_particles = 3e5;
+constexpr double usual_work = 5e8, usual_particles = 1e5, largest_work = 1e9, max_particles = 3e5;
 constexpr double quick_work = 1.2e7, quick_particles = 5000;
 constexpr double min_across = 4, thin_volume = 0.05;
 constexpr double foreseen = 0.95;  // fraction of the work: a trial tells it nearly

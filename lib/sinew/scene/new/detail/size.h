@@ -29,7 +29,7 @@ Prepared tried(const Surface& surface, const NewChoices& choices,
 
 /// Chooses the smallest radius, none larger than the present one, with under 5e8 particle-steps and
 /// 100,000 particles; where limbs are under four particles thick, but for those that hold a
-/// twentieth of the body, up to 2e9 and 300,000; of a quick scene with under 1.2e7 and 5,000. Says
+/// twentieth of the body, up to 1e9 and 300,000; of a quick scene with under 1.2e7 and 5,000. Says
 /// what time that takes. `first`: tried with the present radius.
 void use_budget(const Prepared& first, NewChoices& choices);
 
