@@ -56,7 +56,8 @@ void declare(OptionList& list, Options& options) {
   list.add("--meshes", options.meshes,
            "Meshes of the file, as sinew info lists them; others are left out")
       .type_name("NAME,...");
-  list.add("--clip", options.wish.clip, "Clip by its name; by default the first that moves bones")
+  list.add("--clip", options.wish.clip,
+           "Clip by its name; by default a walk, or the first that moves bones")
       .type_name("NAME");
   list.add("--count", options.count, "Particles; by default as many as a run of minutes may take")
       .positive()

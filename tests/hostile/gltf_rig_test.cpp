@@ -176,7 +176,7 @@ TEST_F(HostileGltfRig, WithoutItsDataIsTheOneWithZeros) {
         zeros.view(std::string(one["count"].get<std::size_t>() * 64, '\0'));
     const std::string answer_of_zeros = answer(write(folder, zeros, Form::packed));
     EXPECT_EQ(answer(write(folder, none, Form::packed)), answer_of_zeros) << index;
-    EXPECT_EQ(answer_of_zeros.empty(), index == joints || index == values) << answer_of_zeros;
+    EXPECT_TRUE(index != joints || answer_of_zeros.empty()) << answer_of_zeros;
     none.json["accessors"][index]["count"] = 2'000'000'000;
     EXPECT_NE(answer(write(folder, none, Form::packed)), "");
   }

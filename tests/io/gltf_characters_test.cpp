@@ -147,7 +147,7 @@ TEST_F(GltfCharacter, MakesBonesOfAnimatedNodes) {
   expect_ends_with(skinned_corners(rig, pose_of(rig, 1)), corners_at(hand));
 }
 
-/// As of FBX: an armature beside props, with a skin that no mesh uses.
+/// Armature of an FBX beside props, with a skin that no mesh uses.
 TEST_F(GltfCharacter, HoldsStillMeshesBesideAnArmatureThatMoves) {
   Gltf gltf = robot();
   const int tip = gltf.node({{"name", "tip"}, {"translation", {0, 0, 1}}});

@@ -66,7 +66,8 @@ def take(armature, name, frames):
     armature.animation_data.action = None
 
 def box():
-    points = [thing.matrix_world @ v.co for thing in bpy.data.objects if thing.type == "MESH" for v in thing.data.vertices]
+    points = [thing.matrix_world @ v.co for thing in bpy.data.objects
+              if thing.type == "MESH" and not thing.hide_viewport for v in thing.data.vertices]
     return [[f(p[i] for p in points) for i in range(3)] for f in (min, max)]
 
 def told(read):
@@ -88,6 +89,8 @@ take(first, "bend", 25)
 take(first, "half turn", 12)
 bpy.ops.wm.collada_export(filepath=folder + "/bar.dae")
 bar("Other", (3, 0, 0), 2)
+bpy.ops.mesh.primitive_cube_add(size=20)
+bpy.context.object.hide_viewport = True
 bpy.ops.export_scene.fbx(filepath=folder + "/-bar's \"two\".fbx", add_leaf_bones=True)
 said = {"-bar's \"two\".fbx": told(lambda: bpy.ops.import_scene.fbx(filepath=folder + "/-bar's \"two\".fbx")),
         "bar.dae": told(lambda: bpy.ops.wm.collada_import(filepath=folder + "/bar.dae"))}

@@ -307,7 +307,8 @@ std::vector<Column> FrameData::columns_of_contact() const {
   Points velocities(now_.positions.size());
   for (std::size_t k = 0; k < velocities.size(); ++k)
     velocities[static_cast<std::size_t>(now_.particles.id[k])] = now_.particles.velocity(k);
-  const SurfaceContact on = contacts_->at(surface_.points, now_.positions, velocities, now_.obstacles);
+  const SurfaceContact on =
+      contacts_->at(surface_.points, now_.positions, velocities, now_.obstacles);
   std::vector<Column> columns;
   for (const std::string_view name : contact_arrays_)
     columns.push_back(column(std::string(name), name == "contact_area" ? on.area : on.pressure));

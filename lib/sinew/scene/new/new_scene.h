@@ -39,7 +39,7 @@ struct NewSceneFiles {
   const RigBody* figure = nullptr;  ///< the mesh is its skin
   std::optional<Axis> up = {};      ///< up of the mesh; none: guessed
   bool quick = false;               ///< runs in ten seconds or so, however coarse
-  std::string clip = {};            ///< a clip by its name; "": the first that moves
+  std::string clip = {};            ///< a clip by its name; "": a walk, or the first that moves
   std::optional<int> count = {};    ///< particles; none: as many as a run may take
   std::optional<double> duration = {};  ///< s; none: the clip, up to 3 s
 };

@@ -95,15 +95,19 @@ void fit_if_better(const Surface& surface, const Skeleton& skeleton, Settings& s
   placing.fraction = fraction;
 }
 
-/// The first clip that turns bones, or else moves them; none where all clips are still poses.
+/// The first clip that is called a walk, turns bones, or else moves them; none where all clips are
+/// still poses.
 const Clip* moving_clip(const Rig& rig) {
-  const Clip* moving = nullptr;
+  const Clip *walking = nullptr, *turning = nullptr, *moving = nullptr;
   for (const Clip& clip : rig.clips) {
     const MovingBones bones = moving_bones(rig.skeleton, clip.motion);
-    if (!bones.turned.empty()) return &clip;
-    if (moving == nullptr && !bones.all.empty()) moving = &clip;
+    if (bones.all.empty()) continue;
+    if (moving == nullptr) moving = &clip;
+    if (bones.turned.empty()) continue;
+    if (turning == nullptr) turning = &clip;
+    if (walking == nullptr && lower(clip.name).find("walk") != std::string::npos) walking = &clip;
   }
-  return moving;
+  return walking != nullptr ? walking : turning != nullptr ? turning : moving;
 }
 
 void choose_clip(const Rig& rig, const Clip& clip, NewChoices& choices) {

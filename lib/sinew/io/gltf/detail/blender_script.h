@@ -8,7 +8,7 @@ namespace sinew {
 // Takes become tracks of their objects, which the exporter joins by name. Blender names an action
 // OBJECT|TAKE|LAYER, and where it was its own exporter, OBJECT|OBJECT|TAKE|LAYER. Of COLLADA, 600
 // frames per second hold the keys of all usual rates. The exporter of 3.4 fails where an action
-// begins between frames.
+// begins between frames. Hidden meshes are left out, unless all are.
 inline constexpr const char* blender_script = R"(import bpy, sys
 
 source, target, reason = sys.argv[sys.argv.index("--") + 1:]
@@ -32,6 +32,10 @@ def read():
             raise RuntimeError("this version of Blender reads no COLLADA")
         call(bpy.ops.wm.collada_import, filepath=source)
     scene.render.fps_base = 1
+    meshes = [thing for thing in bpy.data.objects if thing.type == "MESH"]
+    hidden = [thing for thing in meshes if thing.hide_viewport or thing.hide_get()]
+    for thing in hidden if len(hidden) < len(meshes) else []:
+        bpy.data.objects.remove(thing)
     if not bpy.data.objects:
         raise RuntimeError("it holds no objects")
 
