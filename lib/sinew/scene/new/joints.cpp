@@ -26,7 +26,7 @@ Vec3 bending_axis(const Bone& bone, const Bone& parent) {
 /// Where limbs run into the rest of the body when their joints bend.
 class Room {
  public:
-  explicit Room(const Body& body) : body_(body), grid_(body.rest, touching()) {}
+  explicit Room(const Body& body) : body_(body), grid_(body.rest, deep()) {}
 
   /// The axis of four, the preferred one first, about which the fewest particles do.
   Vec3 axis_for(int joint, const Vec3& preferred) const {
@@ -40,9 +40,11 @@ class Room {
   }
 
  private:
-  double touching() const { return 2 * body_.material.pair.r; }
+  /// Distance of particles of two limbs that run into each other; 2 r where they lie or slide
+  /// beside each other.
+  double deep() const { return 1.4 * body_.material.pair.r; }
 
-  /// Particles of the limb that come to touch others that lay apart, of bones but the one above.
+  /// Particles of the limb that run into those of bones but the one above, on the way.
   std::size_t hits(int joint, const Vec3& axis) const {
     const std::vector<Bone>& bones = body_.skeleton.bones;
     std::vector<bool> below(bones.size());
@@ -50,19 +52,21 @@ class Room {
       below[b] =
           static_cast<int>(b) == joint || (bones[b].parent != no_bone && below[bones[b].parent]);
     const Vec3 head = bones[joint].head();
-    const Quat turn(Eigen::AngleAxisd(radians(bend_angle), axis));
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < body_.rest.size(); ++i) {
-      if (const int bone = body_.binding.bone(i); bone == no_bone || !below[bone]) continue;
-      const Vec3 bent = head + turn * (body_.rest[i] - head);
+    const auto hits_at = [&](const Vec3& bent) {
       bool hit = false;
       grid_.for_each_near(bent, [&](std::uint32_t j) {
         const int other = body_.binding.bone(j);
         hit = hit || (other != no_bone && !below[other] && other != bones[joint].parent &&
-                      (bent - body_.rest[j]).norm() < touching() &&
-                      (body_.rest[i] - body_.rest[j]).norm() > 1.5 * touching());
+                      (bent - body_.rest[j]).norm() < deep());
       });
-      count += hit;
+      return hit;
+    };
+    std::size_t count = 0;
+    for (const double part : {1.0 / 3, 2.0 / 3, 1.0}) {
+      const Quat turn(Eigen::AngleAxisd(part * radians(bend_angle), axis));
+      for (std::size_t i = 0; i < body_.rest.size(); ++i)
+        if (const int bone = body_.binding.bone(i); bone != no_bone && below[bone])
+          count += hits_at(head + turn * (body_.rest[i] - head));
     }
     return count;
   }
