@@ -25,7 +25,7 @@ def read():
         bpy.data.objects.remove(thing)
     if source.endswith(".fbx"):
         call(bpy.ops.import_scene.fbx, filepath=source, anim_offset=0.0, use_custom_normals=False,
-             use_image_search=False)
+             use_image_search=False, use_custom_props=False)
     else:
         scene.render.fps = 600
         if not hasattr(bpy.ops.wm, "collada_import"):
