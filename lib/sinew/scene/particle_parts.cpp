@@ -11,6 +11,7 @@
 #include <sinew/mesh/surface.h>
 #include <sinew/mesh/winding.h>
 #include <sinew/scene/body_mesh.h>
+#include <sinew/scene/context.h>
 #include <sinew/scene/rig.h>
 #include <sinew/world/following_points.h>
 #include <sinew/world/loads.h>

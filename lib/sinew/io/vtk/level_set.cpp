@@ -139,7 +139,7 @@ std::pair<double, Vec3> interpolated(const Padded& image, const Sample& cell, co
 /// Where the cell's corner of the surface lies, in samples.
 Vec3 surface_corner(const Padded& image, const Sample& cell) {
   constexpr int steps = 3;  // steps of Newton's method: the first is nearly exact
-  const Vec3 mean = mean_crossing(image, cell);
+  Vec3 mean = mean_crossing(image, cell);
   if (!image.contains(cell) || !image.contains(corner_of(cell, 7))) return mean;
   Vec3 at = mean - as_vector(cell);
   for (int i = 0; i < steps; ++i) {

@@ -217,6 +217,7 @@ void add_materials(const NewSceneFiles& files, const BodyOptions& placed, NewCho
   std::vector<MaterialSurface> materials = read_vtk_materials(files.mesh);
   if (materials.size() < 2) return;
   std::vector<double> sizes;
+  sizes.reserve(materials.size());
   for (const MaterialSurface& one : materials)
     sizes.push_back(volume(clean(one.surface).triangles));
   const auto largest = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
