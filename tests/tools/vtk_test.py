@@ -203,6 +203,10 @@ class Vtk(unittest.TestCase):
             record = json.loads((out / "run.json").read_text())
             part, = (one for one in record["materials"] if one["name"] == "material 3")
             self.assertAlmostEqual(part["particles"] / record["particles"], 1 / 4, delta=0.03)
+            scene.unlink()
+            refused = sinew("new", path, "-o", scene, "--count", 3000, check=2).stderr
+            self.assertIn("bar_material_3.ply: is there already", refused)
+            self.assertFalse(scene.exists())
 
     def refused_within(self, megabytes, path):
         """What is said of a file by a command that may take so much memory."""

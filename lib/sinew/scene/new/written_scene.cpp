@@ -53,6 +53,7 @@ WrittenScene write_new_scene(const NewSceneWish& wish) {
   write_missing_mesh(wish, files, figure);
   WrittenScene written{files.scene, "", new_scene(files)};
   const NewScene& scene = written.scene;
+  for (const auto& [path, text] : scene.parts) refuse_older(path, wish.force);
   if (files.mesh != wish.mesh) written.mesh = files.mesh;
   if (!scene.mesh.empty()) {
     write_file(scene.mesh, scene.mesh_text);
