@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the skin of a run lies from linear-blend skinning of its glTF file by a reader and a skinner of their own.
+"""How far the skin of a run lies from linear-blend skinning of its file: of glTF by a reader and a skinner of their own,
+of FBX, COLLADA and compressed glTF by Blender's import and evaluation.
 
-usage: exact_skinning.py FILE.glb RUN      the file that the scene animates, the folder of the run
+usage: exact_skinning.py FILE RUN      the file that the scene animates, the folder of the run
 
 Prints the mean and the largest distance of a frame, in diagonals of the body at rest. The vertices of the file are
 found in the skin at rest; the file's axes in the scene are those that fit the last frames best, and the preroll is the
@@ -12,7 +13,9 @@ import base64
 import itertools
 import json
 import struct
+import subprocess
 import sys
+import tempfile
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
@@ -59,11 +62,16 @@ def cubic(values, k, s, step):
             + (3 * s * s - 2 * s**3) * end + (s**3 - s * s) * into)
 
 
-class File:
+def json_of(path):
+    """JSON of a glTF file, and where its binary part begins."""
+    data = path.read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0] if data[:4] == b"glTF" else 0
+    return json.loads(data[20:20 + length] if length else data), data, length
+
+
+class GltfFile:
     def __init__(self, path, clip):
-        data = path.read_bytes()
-        length = struct.unpack_from("<I", data, 12)[0] if data[:4] == b"glTF" else 0
-        self.json = json.loads(data[20:20 + length] if length else data)
+        self.json, data, length = json_of(path)
         self.buffers = [data[28 + length:] if "uri" not in one else
                         base64.b64decode(one["uri"].split(",", 1)[1]) if one["uri"].startswith("data:") else
                         (path.parent / one["uri"]).read_bytes() for one in self.json["buffers"]]
@@ -143,6 +151,83 @@ class File:
         return np.vstack(parts)[:, :3]
 
 
+# The vertices of what is shown, at rest and in each frame of a take, in the scene of Blender.
+SCRIPT = r"""
+import bpy, numpy, sys
+source, target, take, seconds = sys.argv[sys.argv.index("--") + 1:]
+for thing in list(bpy.data.objects):
+    bpy.data.objects.remove(thing)
+if source.endswith(".fbx"):
+    bpy.ops.import_scene.fbx(filepath=source, anim_offset=0.0)
+elif source.endswith(".dae"):
+    bpy.ops.wm.collada_import(filepath=source)
+else:
+    bpy.ops.import_scene.gltf(filepath=source)
+scene = bpy.context.scene
+scene.render.fps_base = 1
+meshes = [thing for thing in bpy.data.objects if thing.type == "MESH" and not thing.hide_viewport and not thing.hide_get()]
+armatures = [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
+for thing in bpy.data.objects:
+    if thing.animation_data is None:
+        continue
+    for track in thing.animation_data.nla_tracks:
+        track.mute = True
+    for action in bpy.data.actions:
+        if (action.name.startswith(thing.name + "|") and take in action.name.split("|")) or action.name in (take, f"{take}_{thing.name}"):
+            thing.animation_data.action = action
+ranges = [thing.animation_data.action.frame_range for thing in bpy.data.objects if thing.animation_data and thing.animation_data.action]
+first, last = int(min(one[0] for one in ranges)), int(max(one[1] for one in ranges))
+
+def vertices():
+    graph, parts = bpy.context.evaluated_depsgraph_get(), []
+    for thing in meshes:
+        now = thing.evaluated_get(graph)
+        mesh = now.to_mesh()
+        points = numpy.empty(3 * len(mesh.vertices))
+        mesh.vertices.foreach_get("co", points)
+        parts.append(numpy.c_[points.reshape(-1, 3), numpy.ones(len(mesh.vertices))] @ numpy.array(now.matrix_world).T)
+        now.to_mesh_clear()
+    return numpy.vstack(parts)[:, :3]
+
+for one in armatures:
+    one.data.pose_position = "REST"
+rest = vertices()
+for one in armatures:
+    one.data.pose_position = "POSE"
+frames = []
+for frame in range(first, min(last, first + int(float(seconds) * scene.render.fps)) + 1):
+    scene.frame_set(frame)
+    frames.append(vertices())
+numpy.savez(target, rest=rest, frames=numpy.array(frames, "f4"), first=first, fps=scene.render.fps)
+"""
+
+
+class BlenderFile:
+    def __init__(self, path, clip, seconds=10):
+        with tempfile.TemporaryDirectory() as folder:
+            link, target = Path(folder, "input" + path.suffix.lower().replace(".vrm", ".glb")), Path(folder, "said.npz")
+            link.symlink_to(path.resolve())
+            subprocess.run(["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python-expr", SCRIPT, "--",
+                            link, target, clip or "", str(seconds)], check=True, capture_output=True)
+            said = np.load(target)
+            self.rest, self.frames, self.first, self.fps = (said[name] for name in ("rest", "frames", "first", "fps"))
+        self.end = (self.first + len(self.frames) - 1) / self.fps
+
+    def skin(self, time, bound=True):
+        if time is None:
+            return self.rest
+        place = np.clip(time * self.fps - self.first, 0, len(self.frames) - 1)
+        k = min(int(place), len(self.frames) - 2) if len(self.frames) > 1 else 0
+        return self.frames[k] + (place - k) * (self.frames[min(k + 1, len(self.frames) - 1)] - self.frames[k])
+
+
+def file_of(path, clip):
+    if path.suffix.lower() in (".fbx", ".dae"):
+        return BlenderFile(path, clip)
+    packed = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"} & set(json_of(path)[0].get("extensionsUsed", []))
+    return BlenderFile(path, clip) if packed else GltfFile(path, clip)
+
+
 def found_in(rest, file):
     """The point of the skin at rest that each vertex is, and whether there is one."""
     size, tree, best = np.linalg.norm(np.ptp(rest, axis=0)), cKDTree(rest), None
@@ -161,7 +246,7 @@ def main():
     path, run = Path(sys.argv[1]), Path(sys.argv[2])
     scene = yaml.safe_load((run / "scene.yaml").read_text())
     motion, scale = scene["motion"], scene["skeleton"].get("scale", 1)
-    file, start = File(path, motion.get("clip")), motion.get("start") or 0
+    file, start = file_of(path, motion.get("clip")), motion.get("start") or 0
     rows = [(float(row.get("timestep")), run / row.get("file")) for row in xml.parse(run / "surface.pvd").iter("DataSet")]
     rest = meshio.read(rows[0][1])
     rest = rest.points - rest.point_data["displacement"]

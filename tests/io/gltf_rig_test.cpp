@@ -170,6 +170,27 @@ TEST_F(ReadGltfRig, TakesConstantScaleForNoMotion) {
   Gltf gltf = bending_bar();
   add_keys<Vec3>(gltf, 0, "scale", "LINEAR", {0, 1}, {{1, 1, 1}, {1, 1.000001, 1}});
   EXPECT_EQ(read(gltf).rig.clips[0].motion.tracks.at(0).rotation.times.size(), 2u) << "no samples";
+  EXPECT_FALSE(resizes(read(gltf).rig.clips[0].motion));
+}
+
+TEST_F(ReadGltfRig, TellsOfTheScaleThatBonesDoNotFollow) {
+  for (const double factor : {0.25, 3.0}) {
+    Gltf held = bending_bar();
+    add_keys<Vec3>(held, 0, "scale", "LINEAR", {0, 1},
+                   {Vec3::Constant(factor), Vec3::Constant(factor)});
+    Gltf growing = bending_bar();
+    add_keys<Vec3>(growing, 0, "scale", "LINEAR", {0, 1}, {{1, 1, 1}, {1, factor, 1}});
+    Gltf units = bending_bar();
+    const int above = units.node({{"scale", {factor, factor, factor}}, {"children", {0}}});
+    units.json["scenes"][0]["nodes"] = {above, 3};
+    for (const Gltf* gltf : {&held, &growing}) {
+      const Motion& motion = read(*gltf).rig.clips[0].motion;
+      EXPECT_EQ(motion.ignored_scale.bone, 0);
+      EXPECT_NEAR(motion.ignored_scale.factor, factor, single * factor);
+      EXPECT_TRUE(resizes(motion));
+    }
+    EXPECT_FALSE(resizes(read(units).rig.clips[0].motion));
+  }
 }
 
 TEST_F(ReadGltfRig, MovesHeadsAsScaleThatChangesMovesThem) {

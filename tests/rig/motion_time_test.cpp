@@ -285,6 +285,9 @@ TEST(MotionWarnings, TellOfLoopsThatDoNotCloseOfStepsAndOfLimits) {
   expect_warned(loop, {"'upper'", "60 degrees", "ping_pong"});
   step.tracks[0].interpolation = Interpolation::step;
   expect_warned(step, {"'upper'", "jumps"});
+  Settings still = step;
+  for (KeyDefinition& key : still.tracks[0].keys) key.angle = 0;
+  EXPECT_TRUE(warnings_of(still).empty()) << "steps between equal values";
   limits.bones[1].limits.swing = 50;
   expect_warned(limits, {"'upper'", "swing by 30 degrees", "first at 2.5 s", "; "});
 }

@@ -15,7 +15,8 @@ TEST(Guess, TakesMillimetersForPartsAndCentimetersForFigures) {
   EXPECT_EQ(guess_unit("a.stl", 120).unit, LengthUnit::mm);
   EXPECT_EQ(guess_unit("a.ply", 1200).unit, LengthUnit::mm);
   EXPECT_EQ(guess_unit("a.obj", 180).unit, LengthUnit::cm);
-  EXPECT_EQ(guess_unit("a.glb", 180).unit, LengthUnit::cm);
+  for (const double longest : {180.0, 700.0, 1900.0})
+    EXPECT_EQ(guess_unit("a.glb", longest).unit, LengthUnit::cm) << longest;
 }
 
 Points box_points(const Vec3& low, const Vec3& high) {

@@ -4,6 +4,7 @@
 
 usage: /usr/bin/python3 new_test.py BIN SOURCE      folder of the programs, folder of the project
 """
+import base64
 import json
 import math
 import re
@@ -86,6 +87,16 @@ def scaled(glb, factor):
         for node in document["scenes"][0]["nodes"]:
             document["nodes"][node]["scale"] = 3 * [factor]
     return edited(glb, scale)
+
+
+def add_numbers(document, kind, numbers, count):
+    """A new accessor of so many elements, in a buffer of its own."""
+    data = struct.pack(f"<{len(numbers)}f", *numbers)
+    document["buffers"].append({"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()})
+    document["bufferViews"].append({"buffer": len(document["buffers"]) - 1, "byteLength": len(data)})
+    document["accessors"].append({"bufferView": len(document["bufferViews"]) - 1, "componentType": 5126,
+                                  "type": kind, "count": count})
+    return len(document["accessors"]) - 1
 
 
 def first_key_of(document, animation):
@@ -311,6 +322,43 @@ class New(unittest.TestCase):
         self.assertIn("tracks:", self.scene.read_text())
         self.assertNotIn("clip:", self.scene.read_text())
         self.runs()
+
+    def test_clips_that_move_no_flesh_or_change_sizes_come_after_others(self):
+        def bind_eye(document, binary):
+            skin, nodes = document["skins"][0], document["nodes"]
+            nodes[skin["joints"][-1]].setdefault("children", []).append(len(nodes))
+            nodes.append({"name": "eye", "translation": [0, 0, 0.01]})
+            binds = document["accessors"][skin["inverseBindMatrices"]]
+            view = document["bufferViews"][binds["bufferView"]]
+            first = view.get("byteOffset", 0) + binds.get("byteOffset", 0)
+            known = struct.unpack_from(f"<{16 * binds['count']}f", binary, first)
+            skin["joints"].append(len(nodes) - 1)
+            skin["inverseBindMatrices"] = add_numbers(document, "MAT4", known + known[-16:], len(skin["joints"]))
+
+        def add_clips(document, sizes):
+            trot, joints = document["animations"][0], document["skins"][0]["joints"]
+            trot["name"] = "trot"
+            turn = next(one for one in trot["channels"] if one["target"]["path"] == "rotation")
+            eye = {"sampler": turn["sampler"], "target": {"node": joints[-1], "path": "rotation"}}
+            scale = {"sampler": len(trot["samplers"]), "target": {"node": joints[1], "path": "scale"}}
+            keys = {"input": add_numbers(document, "SCALAR", (0, 1), 2), "output": add_numbers(document, "VEC3", sizes, 2)}
+            document["animations"][:0] = [
+                {**trot, "name": "blink", "channels": [eye]},
+                {**trot, "name": "grow", "channels": trot["channels"] + [scale], "samplers": trot["samplers"] + [keys]}]
+
+        fox, glb = (SOURCE / "data/motions/fox.glb").read_bytes(), self.folder / "blinking.glb"
+        binary = fox[28 + struct.unpack_from("<I", fox, 12)[0]:]
+
+        def add_others(document):
+            bind_eye(document, binary)
+            add_clips(document, (1, 1, 1, 0.4, 0.4, 0.4))
+
+        glb.write_bytes(edited(fox, add_others))
+        self.make(glb)
+        self.assertIn("clip: trot", self.scene.read_text())
+        self.make(glb, "--force", "--clip", "grow")
+        said = self.check()
+        self.assertRegex(said.stdout + said.stderr, "the clip scales bone '.*' to 0.4 of its size: .*motion.clip")
 
     def test_a_clip_without_a_skin_moves_the_rig_and_the_weights_of_the_mesh(self):
         def without_skin(document):

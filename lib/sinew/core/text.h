@@ -35,6 +35,9 @@ std::string lower(std::string_view text);
 /// "a, b, c"
 std::string listed(std::span<const std::string_view> words);
 
+/// "'a', 'b' and 5 more": at most eight of them, shown.
+std::string some_shown(std::span<const std::string> names);
+
 // Numbers as text, the same in every locale.
 
 /// Shortest text that reads back as the same number.

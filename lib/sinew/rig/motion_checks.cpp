@@ -107,24 +107,35 @@ double first_key(const Motion& motion) {
   return std::isfinite(first) ? first : 0;
 }
 
+bool resizes(const Motion& motion) {
+  constexpr double noticed = 0.05;  // exporters round, and breathing scales by less
+  return std::abs(std::log(motion.ignored_scale.factor)) > noticed;
+}
+
+namespace {
+
+double distance(double a, double b) { return std::abs(a - b); }
+double distance(const Quat& a, const Quat& b) { return a.angularDistance(b); }
+double distance(const Vec3& a, const Vec3& b) { return (a - b).norm(); }
+
+/// Whether a curve departs from its first value by over a threshold.
+template <class Curve>
+bool changes(const Curve& curve, double threshold) {
+  return std::any_of(curve.values.begin(), curve.values.end(), [&](const auto& value) {
+    return distance(curve.values.front(), value) > threshold;
+  });
+}
+
+}  // namespace
+
 MovingBones moving_bones(const Skeleton& skeleton, const Motion& motion) {
   constexpr double min_turn = pi / 180, min_travel = 1e-3;
-  const auto changes = [](const auto& values, double threshold, const auto& distance) {
-    return std::any_of(values.begin(), values.end(), [&](const auto& value) {
-      return distance(values.front(), value) > threshold;
-    });
-  };
-  const auto angle = [](const Quat& a, const Quat& b) { return a.angularDistance(b); };
-  const auto apart = [](double a, double b) { return std::abs(a - b); };
-  const auto distance = [](const Vec3& a, const Vec3& b) { return (a - b).norm(); };
   const double travel = min_travel * bounds(skeleton).diagonal().norm();
   MovingBones moving;
   for (const Track& track : motion.tracks) {
-    const bool turns = changes(track.rotation.values, min_turn, angle) ||
-                       changes(track.twist.values, min_turn, apart);
+    const bool turns = changes(track.rotation, min_turn) || changes(track.twist, min_turn);
     if (turns) moving.turned.push_back(track.bone);
-    if (turns || changes(track.translation.values, travel, distance))
-      moving.all.push_back(track.bone);
+    if (turns || changes(track.translation, travel)) moving.all.push_back(track.bone);
   }
   std::sort(moving.turned.begin(), moving.turned.end());
   std::sort(moving.all.begin(), moving.all.end());
@@ -253,17 +264,34 @@ void warn_of_loop(const Skeleton& skeleton, const Motion& motion, double min_shi
 }
 
 template <class Curve>
-bool steps(const Curve& curve) {
-  return curve.interpolation == Interpolation::step && curve.times.size() > 1;
+bool jumps(const Curve& curve, double threshold) {
+  return curve.interpolation == Interpolation::step && changes(curve, threshold);
 }
 
-void warn_of_steps(const Skeleton& skeleton, const Motion& motion, Warnings& warnings) {
-  for (const Track& track : motion.tracks)
-    if (steps(track.rotation) || steps(track.twist) || steps(track.translation) ||
-        steps(track.stretch))
-      warnings.push_back("bone '" + skeleton.bones[static_cast<std::size_t>(track.bone)].name +
-                         "' jumps from key to key: the body tears at each; use interpolation "
-                         "linear, smooth or cubic");
+void warn_of_steps(const Skeleton& skeleton, const Motion& motion, double min_shift,
+                   Warnings& warnings) {
+  Worst jumping;
+  for (const Track& track : motion.tracks) {
+    const Bone& bone = skeleton.bones[static_cast<std::size_t>(track.bone)];
+    if (!jumps(track.rotation, min_turn) && !jumps(track.twist, min_turn) &&
+        !jumps(track.translation, min_shift) && !jumps(track.stretch, min_shift / bone.length))
+      continue;
+    if (jumping.count++ == 0) jumping.name = bone.name;
+  }
+  if (jumping.count > 0)
+    warnings.push_back(jumping.text() +
+                       " jumps from key to key: the body tears at each; use interpolation "
+                       "linear, smooth or cubic");
+}
+
+void warn_of_scale(const Skeleton& skeleton, const Motion& motion, Warnings& warnings) {
+  const auto& [bone, factor] = motion.ignored_scale;
+  if (resizes(motion))
+    warnings.push_back("the clip scales bone '" +
+                       skeleton.bones[static_cast<std::size_t>(bone)].name + "' to " +
+                       three_digits(factor) +
+                       " of its size: bones keep theirs, and the body is not as the file shows it; "
+                       "choose another clip (motion.clip), or export it without scale");
 }
 
 void warn_of_limits(const Skeleton& skeleton, const Motion& motion, Warnings& warnings) {
@@ -286,7 +314,8 @@ std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion&
   Warnings warnings;
   if (!posed) warn_of_start(skeleton, motion, min_shift, warnings);
   warn_of_loop(skeleton, motion, min_shift, warnings);
-  warn_of_steps(skeleton, motion, warnings);
+  warn_of_steps(skeleton, motion, min_shift, warnings);
+  warn_of_scale(skeleton, motion, warnings);
   warn_of_limits(skeleton, motion, warnings);
   return warnings;
 }

@@ -35,6 +35,9 @@ struct MovingBones {
 };
 MovingBones moving_bones(const Skeleton& skeleton, const Motion& motion);
 
+/// Whether the file of a clip scales bones by over a twentieth.
+bool resizes(const Motion& motion);
+
 struct LimitPassed {
   int bone = no_bone;
   double time = 0;  ///< time of the first excess, s of the scene
@@ -52,8 +55,8 @@ double preroll_for(const Skeleton& skeleton, const Motion& motion);
 // What in a motion would tear a body, or is not done as requested.
 
 /// One line each, with numbers and a cure: bones that do not begin at rest without a preroll, that
-/// jump from key to key or where a loop closes, and that are clamped to their limits. Shifts below
-/// `min_shift` (m) and rotations below a degree are not reported.
+/// jump from key to key or where a loop closes, that the file scales, and that are clamped to their
+/// limits. Shifts below `min_shift` (m) and rotations below a degree are not reported.
 /// `posed`: the body begins where the motion does.
 std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion& motion,
                                          double min_shift, bool posed = false);

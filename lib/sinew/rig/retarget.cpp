@@ -182,16 +182,6 @@ class Retargeting {
   double scale_ = 1, size_ = 0;
 };
 
-template <class Names>
-std::string some_of(const Names& names) {
-  constexpr std::size_t most = 8;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-    text += (i > 0 ? ", " : "") + shown(names[i]);
-  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
-  return text;
-}
-
 void tell_missing(const Skeleton& from, const Skeleton& to, const std::vector<int>& sources,
                   std::vector<std::string>& warnings) {
   std::vector<std::string> joints, bones;
@@ -202,10 +192,10 @@ void tell_missing(const Skeleton& from, const Skeleton& to, const std::vector<in
     if (sources[b] == no_bone) bones.push_back(to.bones[b].name);
   if (!joints.empty())
     warnings.push_back("motion.names leaves out " + std::to_string(joints.size()) + " of " +
-                       std::to_string(from.size()) + " joints of the clip: " + some_of(joints));
+                       std::to_string(from.size()) + " joints of the clip: " + some_shown(joints));
   if (!bones.empty())
     warnings.push_back("motion.names moves all but " + std::to_string(bones.size()) + " of " +
-                       std::to_string(to.size()) + " bones: " + some_of(bones));
+                       std::to_string(to.size()) + " bones: " + some_shown(bones));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 // Sizes of bodies, in the unit of their files. Parts for printers are in mm, figures of animators
 // in m or cm; few bodies that bend are longer than a whale.
 constexpr double longest_in_m = 20, longest_stl_in_m = 2, shortest_figure_in_cm = 50,
-                 longest_figure_in_cm = 300;
+                 longest_figure_in_cm = 300, longest_gltf_in_cm = 2000;
 constexpr double on_ground = 0.02;  // fraction of the height
 constexpr double clearly = 2;       // times the size of another footprint
 
@@ -55,7 +55,8 @@ double footprint(const Points& points, const Box& box, int axis) {
 
 UnitGuess guess_unit(const std::filesystem::path& mesh, double longest) {
   const std::string format = format_of(mesh);
-  const bool like_figure = longest >= shortest_figure_in_cm && longest <= longest_figure_in_cm;
+  const bool like_figure = longest >= shortest_figure_in_cm &&
+                           longest <= (is_gltf(mesh) ? longest_gltf_in_cm : longest_figure_in_cm);
   if (is_gltf(mesh) && !like_figure)
     return {LengthUnit::m,
             needs_blender(mesh) ? "Blender converts it to meters" : "glTF is in meters"};

@@ -95,19 +95,35 @@ void fit_if_better(const Surface& surface, const Skeleton& skeleton, Settings& s
   placing.fraction = fraction;
 }
 
-/// The first clip that is called a walk, turns bones, or else moves them; none where all clips are
-/// still poses.
-const Clip* moving_clip(const Rig& rig) {
-  const Clip *walking = nullptr, *turning = nullptr, *moving = nullptr;
-  for (const Clip& clip : rig.clips) {
-    const MovingBones bones = moving_bones(rig.skeleton, clip.motion);
-    if (bones.all.empty()) continue;
-    if (moving == nullptr) moving = &clip;
-    if (bones.turned.empty()) continue;
-    if (turning == nullptr) turning = &clip;
-    if (walking == nullptr && lower(clip.name).find("walk") != std::string::npos) walking = &clip;
-  }
-  return walking != nullptr ? walking : turning != nullptr ? turning : moving;
+/// Whether each bone moves flesh: vertices follow it, or one below it. All do without weights.
+std::vector<bool> with_flesh(const SkinnedRig& rig) {
+  const std::vector<Bone>& bones = rig.rig.skeleton.bones;
+  std::vector<bool> with(bones.size(), rig.weights.weights.empty());
+  for (const BoneWeight& weight : rig.weights.weights) with[weight.bone] = true;
+  for (std::size_t b = bones.size(); b-- > 0;)
+    if (with[b] && bones[b].parent != no_bone) with[bones[b].parent] = true;
+  return with;
+}
+
+/// Grade of a clip for a first scene: 0 for a still pose, the highest for a walk.
+int grade(const Clip& clip, const Skeleton& skeleton, const std::vector<bool>& flesh) {
+  const MovingBones bones = moving_bones(skeleton, clip.motion);
+  const auto moves_flesh = [&](int bone) { return flesh[static_cast<std::size_t>(bone)]; };
+  if (std::none_of(bones.turned.begin(), bones.turned.end(), moves_flesh))
+    return std::any_of(bones.all.begin(), bones.all.end(), moves_flesh) ? 2 : !bones.all.empty();
+  const bool walks = lower(clip.name).find("walk") != std::string::npos;
+  return 3 + !resizes(clip.motion) + 2 * walks;
+}
+
+/// The first clip of the best grade; none where all clips are still poses.
+const Clip* moving_clip(const SkinnedRig& rig) {
+  const std::vector<bool> flesh = with_flesh(rig);
+  const Clip* best = nullptr;
+  int highest = 0;
+  for (const Clip& clip : rig.rig.clips)
+    if (const int grade_of_clip = grade(clip, rig.rig.skeleton, flesh); grade_of_clip > highest)
+      best = &clip, highest = grade_of_clip;
+  return best;
 }
 
 void choose_clip(const Rig& rig, const Clip& clip, NewChoices& choices) {
@@ -149,8 +165,10 @@ void bend_ends(const Skeleton& skeleton, NewChoices& choices) {
   choices.settings.solver.duration = 1.25 + rest_after;
 }
 
-void choose_motion(const Rig& rig, NewChoices& choices) {
-  const Clip* clip = choices.clip.empty() ? moving_clip(rig) : &find_clip(rig.clips, choices.clip);
+void choose_motion(const SkinnedRig& skinned, NewChoices& choices) {
+  const Rig& rig = skinned.rig;
+  const Clip* clip =
+      choices.clip.empty() ? moving_clip(skinned) : &find_clip(rig.clips, choices.clip);
   if (clip != nullptr)
     choose_clip(rig, *clip, choices);
   else
@@ -235,7 +253,7 @@ Surface use_rig(const std::string& given, Surface surface, NewChoices& choices) 
   if (placing.fraction < min_fraction) choices.bones += ": see skeleton.scale, up and forward";
   if (!rig.weights.weights.empty() && placing.fraction >= min_fraction)
     settings.binding.method = BindMethod::file;
-  choose_motion(rig.rig, choices);
+  choose_motion(rig, choices);
   return surface;
 }
 
@@ -250,7 +268,7 @@ void use_rig(const RigBody& figure, const Surface& surface, NewChoices& choices)
   choices.unit = figure.unit, choices.axes = figure.axes, choices.pose = figure.pose;
   choices.bones = std::to_string(rig.skeleton.size()) + " bones of the rig, " +
                   three_digits(std::round(100 * fraction)) + " % of them inside the mesh";
-  choose_motion(rig, choices);
+  choose_motion({std::move(rig), {}, {}}, choices);
 }
 
 }  // namespace sinew

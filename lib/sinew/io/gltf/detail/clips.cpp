@@ -110,16 +110,6 @@ void append(const GltfAnimation& more, GltfAnimation& all) {
   }
 }
 
-/// "'a', 'b', 'c' and 5 more"
-std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 8;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-    text += (i > 0 ? ", " : "") + shown(names[i]);
-  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
-  return text;
-}
-
 /// The clips of another file on the nodes of a skeleton.
 class Borrowing {
  public:
@@ -162,17 +152,17 @@ class Borrowing {
         still.push_back(gltf_.document.nodes[static_cast<std::size_t>(joint.node)].name);
     const std::vector<std::string> lacking(lacking_.begin(), lacking_.end());
     if (still.size() == bind_.joints.size())
-      throw bad_input("it moves no joint of the skeleton, but " + some_of(lacking),
+      throw bad_input("it moves no joint of the skeleton, but " + some_shown(lacking),
                       "name nodes as the skeleton does: " +
                           shown(still.empty() ? std::string() : still.front()));
     std::vector<std::string> warnings;
     if (!lacking.empty())
       warnings.push_back("moves " + std::to_string(lacking.size()) +
                          (lacking.size() == 1 ? " node" : " nodes") +
-                         " that the skeleton lacks: " + some_of(lacking));
+                         " that the skeleton lacks: " + some_shown(lacking));
     if (!still.empty())
       warnings.push_back("does not move " + std::to_string(still.size()) + " of " +
-                         std::to_string(bind_.joints.size()) + " joints: " + some_of(still));
+                         std::to_string(bind_.joints.size()) + " joints: " + some_shown(still));
     return warnings;
   }
 

@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sinew/core/decompositions.h>
 #include <sinew/core/error.h>
 
 namespace sinew {
 namespace {
 
-constexpr double uneven_node = 1e-4;  // fraction of a node's scale; more is not rounding
-constexpr double max_places = 2e7;    // about 10 s
-constexpr double motionless = 1e-6;   // rad, and of the skeleton's size
+constexpr double scale_rounding = 1e-3;  // fraction of a scale
+constexpr double uneven_node = 1e-4;     // fraction of a node's scale; more is not rounding
+constexpr double max_places = 2e7;       // about 10 s
+constexpr double motionless = 1e-6;      // rad, and of the skeleton's size
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -131,18 +133,34 @@ void put_sample(const GltfBindPose& bind, int index, double time, const std::vec
                                      (bound_head(bind, index) - bound_head(bind, parent)));
 }
 
+/// The scale of a joint since it was bound that is farthest from 1, along any axis.
+double scale_of(const GltfJoint& joint, const std::vector<Affine>& global) {
+  const Vec3 scales =
+      singular_values(global[at(joint.node)].linear() * joint.bind.linear().inverse()).values;
+  return scales[0] * scales[2] > 1 ? scales[0] : scales[2];
+}
+
+void note_scale(const GltfBindPose& bind, const std::vector<Affine>& global, Motion& motion) {
+  const auto distance = [](double factor) { return std::abs(std::log(factor)); };
+  for (std::size_t i = 0; i < bind.joints.size(); ++i)
+    if (const double factor = scale_of(bind.joints[i], global);
+        distance(factor) > distance(motion.ignored_scale.factor) + scale_rounding)
+      motion.ignored_scale = {static_cast<int>(i), factor};
+}
+
 /// Adds samples at all keys and `rate` times a second, linear between, to the tracks of joints
 /// whose links are not exact: G B^-1 (G the node's transform, B the bind) places the head, and the
 /// nearest rotation turns the bone. Throws bad input (without the path) where that takes more than
 /// 2e7 node transforms.
 void put_samples(const GltfBindPose& bind, const GltfTree& tree, const GltfNodeMotion& nodes,
-                 const std::vector<GltfLink>& links, double rate, std::vector<Track>& tracks) {
+                 const std::vector<GltfLink>& links, double rate, Motion& motion) {
   std::vector<Affine> local(nodes.places.size());
   for (const double time : sample_times(nodes, rate)) {
     for (const int node : tree.order) local[at(node)] = nodes.at(node, time);
     const std::vector<Affine> global = global_places(tree, local);
+    note_scale(bind, global, motion);
     for (std::size_t i = 0; i < links.size(); ++i)
-      if (!links[i].exact) put_sample(bind, static_cast<int>(i), time, global, tracks[i]);
+      if (!links[i].exact) put_sample(bind, static_cast<int>(i), time, global, motion.tracks[i]);
   }
 }
 
@@ -220,7 +238,10 @@ Motion joint_motion(const GltfBindPose& bind, const GltfTree& tree, const GltfNo
                     double rate) {
   const std::vector<GltfLink> links = joint_links(bind, tree, nodes);
   const double size = size_of(bind);
-  std::vector<Track> tracks(links.size());
+  Motion motion;
+  std::vector<Track>& tracks = motion.tracks;
+  tracks.resize(links.size());
+  note_scale(bind, global_places(tree, still_places(nodes)), motion);
   bool sampled = false;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const int index = static_cast<int>(i);
@@ -230,7 +251,7 @@ Motion joint_motion(const GltfBindPose& bind, const GltfTree& tree, const GltfNo
     tracks[i].rotation = rotation_of(bind, index, links[i], nodes);
     tracks[i].translation = translation_of(bind, index, links[i], nodes, size);
   }
-  if (sampled) put_samples(bind, tree, nodes, links, rate, tracks);
+  if (sampled) put_samples(bind, tree, nodes, links, rate, motion);
   for (std::size_t i = 0; i < tracks.size(); ++i)
     if (!is_finite(tracks[i]))
       throw bad_input("it moves joint " + std::to_string(i) + " out of all finite places",
@@ -238,8 +259,6 @@ Motion joint_motion(const GltfBindPose& bind, const GltfTree& tree, const GltfNo
   std::erase_if(tracks, [](const Track& track) {
     return track.rotation.empty() && track.translation.empty();
   });
-  Motion motion;
-  motion.tracks = std::move(tracks);
   return motion;
 }
 
