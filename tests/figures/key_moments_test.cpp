@@ -46,6 +46,17 @@ TEST(KeyMoments, SayWhatTheyShow) {
   EXPECT_EQ(words_of(key_moments(moved, r)).front(), "");
 }
 
+TEST(KeyMoments, AreThoseFarthestFromAPosedStartWhereAClipComesBackToIt) {
+  RunOverview looped = there_and_back(1.5, 0);
+  looped.angle = {1.4, 1.3, 1.2, 1.1, 1.2, 1.3, 1.5};
+  looped.from_start = {0, r, 3 * r, 2 * r, 2 * r, r, 0};
+  const auto moments = key_moments(looped, r);
+  ASSERT_EQ(moments.size(), 3u);
+  EXPECT_EQ(moments[1].frame, 2u);
+  EXPECT_EQ(moments[1].what, "farthest from the start");
+  EXPECT_EQ(moments[2].frame, 6u);
+}
+
 TEST(KeyMoments, AreSpreadEvenlyWhereNoBoneTurns) {
   RunOverview overview;
   overview.angle.assign(21, 0.0);

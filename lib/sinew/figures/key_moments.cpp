@@ -24,6 +24,10 @@ std::vector<std::size_t> spread_over(std::size_t frames) {
   return chosen;
 }
 
+std::size_t index_of_largest(const std::vector<double>& values) {
+  return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+}
+
 double largest_turn(const RunOverview& overview) {
   return *std::max_element(overview.angle.begin(), overview.angle.end());
 }
@@ -66,8 +70,10 @@ std::vector<KeyMoment> key_moments(const RunOverview& overview, double radius) {
     while (angle[half] < most / 2) ++half;
     for (std::size_t i = 0; i < angle.size(); ++i)
       if (angle[i] >= most * (1 - 1e-5)) farthest = i;
-    const std::string what =
+    std::string what =
         "largest turn" + (overview.turned.empty() ? "" : ", of " + shortened(overview.turned));
+    if (half == 0 && !overview.from_start.empty())  // it begins posed, as clips in a loop do
+      farthest = index_of_largest(overview.from_start), what = "farthest from the start";
     moments = {{0, ""}, {half, "half way"}, {farthest, what}};
     const std::string returned = return_in_words(overview, radius);
     if (last != farthest) moments.push_back({last, returned.empty() ? "the end" : returned});

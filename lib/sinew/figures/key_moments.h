@@ -28,7 +28,8 @@ struct KeyMoment {
 };
 
 /// Rest, half the largest turn of a bone, the largest (the last such frame), and the end; evenly
-/// over all frames where no bone turns. `radius` of a particle, m.
+/// over all frames where no bone turns. A run that begins posed, with half the largest turn, has
+/// the frame that is farthest from its first one in place of both. `radius` of a particle, m.
 std::vector<KeyMoment> key_moments(const RunOverview& overview, double radius);
 
 /// Whether and how exactly a body has come back in the end, in the mean and where it is worst; "":

@@ -73,6 +73,14 @@ Vec3 mean_of(const Points& points) {
   return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
+/// The quadratic mean of the distances between two sets of points, each about its mean, m.
+double distance_about_means(const Points& a, const Points& b) {
+  const Vec3 apart = mean_of(a) - mean_of(b);
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i] - apart).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(a.size(), 1)));
+}
+
 double quadratic_mean(const std::vector<double>& values) {
   const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
   return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
@@ -238,6 +246,7 @@ struct DrawnRun::Walk {
   Box body = {}, body_followed = {};
   double farthest = 0;  ///< how far the body goes over the ground, m
   Turned widest = {};
+  Points first = {};  ///< particles of the first frame, m
 };
 
 void DrawnRun::read_overview() {
@@ -276,6 +285,8 @@ void DrawnRun::add(Walk& walk, std::size_t index, FrameState frame) {
   const std::vector<double> moved_by = displacements(run_, frame);
   overview_.shift.push_back(quadratic_mean(moved_by));
   overview_.farthest.push_back(largest_of(moved_by));
+  if (index == 0) walk.first = frame.positions;
+  overview_.from_start.push_back(distance_about_means(walk.first, frame.positions));
   for (std::size_t v = 0; v < views_.size(); ++v) {
     DrawnView& drawn = views_[v];
     if (drawn.pulls) drawn.range.high = std::max(drawn.range.high, strongest_pull(frame, drawn));

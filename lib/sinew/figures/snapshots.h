@@ -51,7 +51,9 @@ struct RunOverview {
   std::vector<double> angle;     ///< per frame: largest turn of a bone since rest, rad
   std::vector<double> shift;     ///< per frame: quadratic mean of the displacements of particles, m
   std::vector<double> farthest;  ///< per frame: the largest of these, m
-  std::string turned = {};       ///< name of the bone that turns most
+  /// Per frame: the same mean of distances from the first frame, both about their means, m.
+  std::vector<double> from_start = {};
+  std::string turned = {};  ///< name of the bone that turns most
   /// Per frame: how far the camera has followed the body over the ground, m; empty: it stays.
   std::vector<Vec3> travel;
   /// Near the body, m: what is drawn is relative to it, so that runs far apart are compared.

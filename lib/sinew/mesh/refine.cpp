@@ -16,7 +16,8 @@ using Face = std::array<int, 3>;
 /// Points in the middle of the sides that are too long; both faces of a side get the same one.
 class Middles {
  public:
-  Middles(Points& points, double longest) : points_(points), squared_(longest * longest) {}
+  Middles(Points& points, double longest, std::vector<std::array<int, 2>>* ends)
+      : points_(points), squared_(longest * longest), ends_(ends) {}
 
   /// -1: the side is short enough.
   int between(int a, int b) {
@@ -24,6 +25,7 @@ class Middles {
     const auto [at, added] =
         numbers_.try_emplace(std::minmax(a, b), static_cast<int>(points_.size()));
     if (added) points_.push_back((points_[std::min(a, b)] + points_[std::max(a, b)]) / 2);
+    if (added && ends_ != nullptr) ends_->push_back({a, b});
     return at->second;
   }
 
@@ -46,6 +48,7 @@ class Middles {
 
   Points& points_;
   double squared_;
+  std::vector<std::array<int, 2>>* ends_;
   std::map<std::pair<int, int>, int> numbers_;
 };
 
@@ -121,8 +124,8 @@ double longest_side(const Triangles& surface) {
   return longest;
 }
 
-Triangles refined(Triangles surface, double longest) {
-  Middles middles(surface.points, longest);
+Triangles refined(Triangles surface, double longest, std::vector<std::array<int, 2>>* ends) {
+  Middles middles(surface.points, longest, ends);
   for (bool any = true; any;) {
     any = false;
     std::vector<Face> faces;

@@ -7,7 +7,9 @@
 //     write_file("slab.obj", obj_text(slab));
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include <sinew/core/triangles.h>
 
@@ -24,8 +26,10 @@ double longest_side(const Triangles& surface);
 /// planes and orientation. Accepts any triangles. The number of faces goes with their area over the
 /// square of `longest`, and with the length of needles over it, which are cut across at once.
 ///
-/// Needles stay needles: it cuts sides and moves no point.
-Triangles refined(Triangles surface, double longest);
+/// Needles stay needles: it cuts sides and moves no point. `ends`, where given, receives for each
+/// new point the two earlier ones that it lies midway between.
+Triangles refined(Triangles surface, double longest,
+                  std::vector<std::array<int, 2>>* ends = nullptr);
 
 // A layer.
 

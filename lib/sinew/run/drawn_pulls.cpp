@@ -8,7 +8,7 @@
 #include <sinew/core/particles.h>
 #include <sinew/core/rest_neighbors.h>
 #include <sinew/rig/binding.h>
-#include <sinew/scene/prepare.h>
+#include <sinew/scene/bind_scene.h>
 #include <sinew/scene/rig.h>
 
 namespace sinew {

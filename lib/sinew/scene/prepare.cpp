@@ -8,9 +8,9 @@
 #include <sinew/core/error.h>
 #include <sinew/core/system.h>
 #include <sinew/core/text.h>
-#include <sinew/io/gltf/geometry.h>
 #include <sinew/repair/read_surface.h>
 #include <sinew/rig/motion.h>
+#include <sinew/scene/bind_scene.h>
 #include <sinew/scene/body_mesh.h>
 #include <sinew/scene/context.h>
 #include <sinew/scene/damping.h>
@@ -27,78 +27,6 @@
 #include <sinew/settings/read_scene.h>
 
 namespace sinew {
-
-namespace {
-
-/// The weights of the mesh in skeleton.file, in the scene's directions and lengths.
-BoneWeights weights_of_file(const Settings& settings, const SkinnedRig& rig, const Points& rest) {
-  const std::filesystem::path file = settings.skeleton.file;
-  const Place place = settings.place("binding.method");
-  if (!is_gltf(file))
-    throw bad_input(
-        place, "there is no glTF file to take weights from",
-        "name a .gltf, .glb or .vrm with a skinned mesh in skeleton.file, or choose inside");
-  if (rig.weights.weights.empty())
-    throw bad_input(place, file.filename().string() + " holds no skinned mesh, so no weights",
-                    "choose nearest or inside");
-  const Placement placement = placement_of(settings.skeleton);
-  Points points = rig.mesh.points;
-  for (Vec3& point : points) point = placement(point);
-  return carried_weights(points, rig.weights, rest);
-}
-
-void refuse_empty(const BoundRegion& region, const Points& rest, const Place& place) {
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    if (region.holds(i, rest[i])) return;
-  const Box body = bounds(rest);
-  const auto corner = [](const Vec3& point) {
-    return '[' + three_digits(point.x()) + ", " + three_digits(point.y()) + ", " +
-           three_digits(point.z()) + ']';
-  };
-  throw bad_input(place, "there is no particle in this region",
-                  "choose one that reaches into the body, from " + corner(body.min()) + " to " +
-                      corner(body.max()) + " m");
-}
-
-BoundRegion region_of(const Settings& settings, std::size_t index, const Skeleton& skeleton,
-                      const Points& rest) {
-  const BoundSettings& given = settings.bound[index];
-  const std::string path = "binding.explicit[" + std::to_string(index) + "]";
-  const bool box = given.low && given.high, ball = given.center && given.radius;
-  if (given.low.has_value() != given.high.has_value())
-    throw bad_input(settings.place(path), "the box has one corner", "give both low and high");
-  if (given.center.has_value() != given.radius.has_value())
-    throw bad_input(settings.place(path), "the ball lacks its center or its radius",
-                    "give both center and radius");
-  if (!box && !ball && !given.ids)
-    throw bad_input(settings.place(path), "the entry names no particles",
-                    "give ids, low and high of a box, or center and radius of a ball");
-  BoundRegion region;
-  region.bone = bone_at(settings, path, skeleton, given.bone);
-  if (given.ids) region.ids = ids_of(settings, path + ".ids", *given.ids, rest.size());
-  if (box) region.box = Box(*given.low, *given.high);
-  if (ball) region.center = *given.center, region.radius = *given.radius;
-  refuse_empty(region, rest, settings.place(path));
-  return region;
-}
-
-}  // namespace
-
-Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skeleton& skeleton,
-                   const Points& rest, const NeighborLists& nearest, double radius) {
-  const BindingOptions& given = settings.binding;
-  BindOptions options;
-  options.radius = radius;
-  options.neighbors = &nearest;
-  options.inside = given.method == BindMethod::inside;
-  options.joint_zone = given.joint_zone;
-  if (given.core_radius) options.core_radius = *given.core_radius;
-  for (std::size_t i = 0; i < settings.bound.size(); ++i)
-    options.regions.push_back(region_of(settings, i, skeleton, rest));
-  if (given.method == BindMethod::file)
-    options.weights = weights_of_file(settings, files.skeleton, rest);
-  return bind_to_bones(rest, skeleton, options);
-}
 
 namespace {
 

@@ -30,14 +30,6 @@
 
 namespace sinew {
 
-// How a scene binds its particles to its bones.
-
-/// Binds particles of `radius` (m) at `rest`, with their nearest neighbors, as section binding
-/// specifies. Throws bad input, with the scene's line: for a file without weights, an unknown bone,
-/// numbers of particles that do not exist, and an incomplete box or ball.
-Binding bind_scene(const Settings& settings, const SceneFiles& files, const Skeleton& skeleton,
-                   const Points& rest, const NeighborLists& nearest, double radius);
-
 /// Returns the material of a scene's particles, a damping ratio apart.
 Material material_of(const Settings& settings, const Particles& particles);
 

@@ -3,7 +3,7 @@
 // outputs that would replace what a command reads.
 //
 //     const SceneFiles files = read_files(settings);
-//     const Binding binding = bind_scene(settings, files, skeleton, rest, radius);
+//     const Binding binding = bind_scene(settings, files, skeleton, rest, nearest, radius);
 #pragma once
 
 #include <filesystem>
