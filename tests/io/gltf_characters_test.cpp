@@ -162,6 +162,19 @@ TEST_F(GltfCharacter, HoldsStillMeshesBesideAnArmatureThatMoves) {
   EXPECT_EQ(bones[static_cast<std::size_t>(rig.weights.of(4)[0].bone)].name, "arm");
 }
 
+/// A mesh without weights beside an armature of its place, as of an FBX whose skin was not written.
+TEST_F(GltfCharacter, LeavesMeshesWithoutWeightsBesideBareJoints) {
+  Gltf gltf = robot();
+  gltf.json.erase("animations");
+  const int tip = gltf.node({{"name", "tip"}, {"translation", {0, 0, 1}}});
+  const int root = gltf.node({{"name", "root"}, {"children", {tip}}});
+  gltf.json["scenes"][0]["nodes"].push_back(root);
+  gltf.add("skins", {{"joints", {root, tip}}});
+  const SkinnedRig rig = read(gltf);
+  EXPECT_EQ(rig.rig.skeleton.size(), 2u);
+  EXPECT_TRUE(rig.weights.weights.empty());
+}
+
 /// An avatar without a skin or a clip, in the words of both versions of VRM.
 TEST_F(GltfCharacter, MakesBonesOfTheNodesThatVrmNames) {
   const Json list = {{{"bone", "hips"}, {"node", 0}},

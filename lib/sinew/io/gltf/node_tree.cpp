@@ -297,7 +297,15 @@ class Binder {
             below(joint(static_cast<int>(i)).parent, joint(static_cast<int>(i)).node));
     for (std::size_t node = 0; node < global_.size(); ++node)
       pose_.nodes[node] = below(pose_.holders[node], static_cast<int>(node));
-    if (!skinned_) hold_the_rest();
+    if (!skinned_ && holds_meshes()) hold_the_rest();
+  }
+
+  /// Whether a bone holds any mesh. None does where joints of a skin without a mesh lie beside
+  /// meshes.
+  bool holds_meshes() const {
+    for (std::size_t node = 0; node < global_.size(); ++node)
+      if (document_.nodes[node].mesh >= 0 && pose_.holders[node] >= 0) return true;
+    return false;
   }
 
   /// Gives meshes that nothing moves to the last bone that nothing moves, if there is one.
