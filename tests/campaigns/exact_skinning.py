@@ -78,9 +78,10 @@ class GltfFile:
         self.parent = {child: k for k, node in enumerate(self.json["nodes"]) for child in node.get("children", [])}
         clips = self.json["animations"]
         chosen = next((one for one in clips if one.get("name") == clip), clips[0])
+        joined = [chosen] if "name" in chosen else [one for one in clips if "name" not in one]
         self.tracks = {}
-        for channel in chosen["channels"]:
-            sampler, target = chosen["samplers"][channel["sampler"]], channel["target"]
+        for one, channel in ((one, channel) for one in joined for channel in one["channels"]):
+            sampler, target = one["samplers"][channel["sampler"]], channel["target"]
             mode = sampler.get("interpolation", "LINEAR")
             times, values = self.accessor(sampler["input"])[:, 0], self.accessor(sampler["output"])
             if mode == "CUBICSPLINE":
@@ -261,7 +262,8 @@ def main():
     turn = min(ROTATIONS, key=lambda one: sum(off(row, one, 0) for row in late))
     given = motion.get("preroll")
     prerolls = np.arange(0, LONGEST_PREROLL, 0.1) if isinstance(given, str) else [given or 0]
-    preroll = min(prerolls, key=lambda one: sum(off(row, turn, one) for row in late))
+    spread = [rows[len(rows) * k // 8] for k in range(1, 8)]  # the end may be still
+    preroll = min(prerolls, key=lambda one: sum(off(row, turn, one) for row in spread))
     counted = [row for row in rows if 0 <= row[0] - preroll <= file.end - start]
     distances = [off(row, turn, preroll) for row in counted[::max(1, len(counted) // FRAMES)]]
     size = np.linalg.norm(np.ptp(rest, axis=0))
