@@ -170,7 +170,7 @@ TEST_F(ReadGltfRig, TakesConstantScaleForNoMotion) {
   Gltf gltf = bending_bar();
   add_keys<Vec3>(gltf, 0, "scale", "LINEAR", {0, 1}, {{1, 1, 1}, {1, 1.000001, 1}});
   EXPECT_EQ(read(gltf).rig.clips[0].motion.tracks.at(0).rotation.times.size(), 2u) << "no samples";
-  EXPECT_FALSE(resizes(read(gltf).rig.clips[0].motion));
+  EXPECT_TRUE(read(gltf).rig.clips.at(0).motion.ignored_scales.empty());
 }
 
 TEST_F(ReadGltfRig, TellsOfTheScaleThatBonesDoNotFollow) {
@@ -183,13 +183,16 @@ TEST_F(ReadGltfRig, TellsOfTheScaleThatBonesDoNotFollow) {
     Gltf units = bending_bar();
     const int above = units.node({{"scale", {factor, factor, factor}}, {"children", {0}}});
     units.json["scenes"][0]["nodes"] = {above, 3};
+    const std::vector<bool> all(2, true);
     for (const Gltf* gltf : {&held, &growing}) {
-      const Motion& motion = read(*gltf).rig.clips[0].motion;
-      EXPECT_EQ(motion.ignored_scale.bone, 0);
-      EXPECT_NEAR(motion.ignored_scale.factor, factor, single * factor);
-      EXPECT_TRUE(resizes(motion));
+      const Motion motion = read(*gltf).rig.clips.at(0).motion;
+      const auto largest = largest_scale(motion, all);
+      ASSERT_TRUE(largest);
+      EXPECT_EQ(largest->bone, 0);
+      EXPECT_NEAR(largest->factor, factor, single * factor);
+      EXPECT_FALSE(largest_scale(motion, {false, false})) << "bones without flesh";
     }
-    EXPECT_FALSE(resizes(read(units).rig.clips[0].motion));
+    EXPECT_FALSE(largest_scale(read(units).rig.clips.at(0).motion, all));
   }
 }
 

@@ -64,15 +64,15 @@ struct TrackCursor {
   CurvePiece<Vec3> translation;
 };
 
-/// A scale over time in the file of a clip, which rigid bones do not follow.
+/// A scale in the file of a clip, which a rigid bone does not follow.
 struct IgnoredScale {
   int bone = no_bone;
-  double factor = 1;  ///< size over that at rest, where it is farthest from 1
+  double factor = 1;  ///< size over that when bound, where it is farthest from 1
 };
 
 struct Motion {
   std::vector<Track> tracks;  ///< at most one per bone
-  IgnoredScale ignored_scale = {};
+  std::vector<IgnoredScale> ignored_scales = {};
   Extrapolation extrapolation = Extrapolation::hold;
   double start = 0;                ///< s of the clip: the part of it that is used
   std::optional<double> end = {};  ///< s of the clip; none: its last key

@@ -107,9 +107,13 @@ double first_key(const Motion& motion) {
   return std::isfinite(first) ? first : 0;
 }
 
-bool resizes(const Motion& motion) {
-  constexpr double noticed = 0.05;  // exporters round, and breathing scales by less
-  return std::abs(std::log(motion.ignored_scale.factor)) > noticed;
+std::optional<IgnoredScale> largest_scale(const Motion& motion, const std::vector<bool>& bones) {
+  std::optional<IgnoredScale> largest;
+  const auto size = [](const IgnoredScale& one) { return std::abs(std::log(one.factor)); };
+  for (const IgnoredScale& one : motion.ignored_scales)
+    if (bones[static_cast<std::size_t>(one.bone)] && (!largest || size(one) > size(*largest)))
+      largest = one;
+  return largest;
 }
 
 namespace {
@@ -265,7 +269,9 @@ void warn_of_loop(const Skeleton& skeleton, const Motion& motion, double min_shi
 
 template <class Curve>
 bool jumps(const Curve& curve, double threshold) {
-  return curve.interpolation == Interpolation::step && changes(curve, threshold);
+  const auto far = [&](const auto& a, const auto& b) { return distance(a, b) > threshold; };
+  return curve.interpolation == Interpolation::step &&
+         std::adjacent_find(curve.values.begin(), curve.values.end(), far) != curve.values.end();
 }
 
 void warn_of_steps(const Skeleton& skeleton, const Motion& motion, double min_shift,
@@ -282,16 +288,6 @@ void warn_of_steps(const Skeleton& skeleton, const Motion& motion, double min_sh
     warnings.push_back(jumping.text() +
                        " jumps from key to key: the body tears at each; use interpolation "
                        "linear, smooth or cubic");
-}
-
-void warn_of_scale(const Skeleton& skeleton, const Motion& motion, Warnings& warnings) {
-  const auto& [bone, factor] = motion.ignored_scale;
-  if (resizes(motion))
-    warnings.push_back("the clip scales bone '" +
-                       skeleton.bones[static_cast<std::size_t>(bone)].name + "' to " +
-                       three_digits(factor) +
-                       " of its size: bones keep theirs, and the body is not as the file shows it; "
-                       "choose another clip (motion.clip), or export it without scale");
 }
 
 void warn_of_limits(const Skeleton& skeleton, const Motion& motion, Warnings& warnings) {
@@ -315,9 +311,18 @@ std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion&
   if (!posed) warn_of_start(skeleton, motion, min_shift, warnings);
   warn_of_loop(skeleton, motion, min_shift, warnings);
   warn_of_steps(skeleton, motion, min_shift, warnings);
-  warn_of_scale(skeleton, motion, warnings);
   warn_of_limits(skeleton, motion, warnings);
   return warnings;
+}
+
+std::string scale_warning(const Skeleton& skeleton, const Motion& motion,
+                          const std::vector<bool>& bones) {
+  const std::optional<IgnoredScale> largest = largest_scale(motion, bones);
+  if (!largest) return "";
+  return "the clip scales bone '" + skeleton.bones[static_cast<std::size_t>(largest->bone)].name +
+         "' to " + three_digits(largest->factor) +
+         " of its size: bones keep theirs, and the body is not as the file shows it; choose "
+         "another clip (motion.clip), or export it without scale";
 }
 
 }  // namespace sinew

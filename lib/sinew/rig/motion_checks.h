@@ -8,6 +8,7 @@
 //     for (const std::string& line : motion_warnings(skeleton, motion, min_shift)) print(line);
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,9 @@ struct MovingBones {
 };
 MovingBones moving_bones(const Skeleton& skeleton, const Motion& motion);
 
-/// Whether the file of a clip scales bones by over a twentieth.
-bool resizes(const Motion& motion);
+/// The largest scale in the file of a clip, of the `bones` that count; none where they keep their
+/// sizes.
+std::optional<IgnoredScale> largest_scale(const Motion& motion, const std::vector<bool>& bones);
 
 struct LimitPassed {
   int bone = no_bone;
@@ -55,10 +57,14 @@ double preroll_for(const Skeleton& skeleton, const Motion& motion);
 // What in a motion would tear a body, or is not done as requested.
 
 /// One line each, with numbers and a cure: bones that do not begin at rest without a preroll, that
-/// jump from key to key or where a loop closes, that the file scales, and that are clamped to their
-/// limits. Shifts below `min_shift` (m) and rotations below a degree are not reported.
-/// `posed`: the body begins where the motion does.
+/// jump from key to key or where a loop closes, and that are clamped to their limits. Shifts below
+/// `min_shift` (m) and rotations below a degree are not reported. `posed`: the body begins where
+/// the motion does.
 std::vector<std::string> motion_warnings(const Skeleton& skeleton, const Motion& motion,
                                          double min_shift, bool posed = false);
+
+/// A line about the largest scale that the bones do not follow; "": there is none.
+std::string scale_warning(const Skeleton& skeleton, const Motion& motion,
+                          const std::vector<bool>& bones);
 
 }  // namespace sinew

@@ -55,13 +55,30 @@ Triangles triangles_of(const PolygonSoup& soup) {
   return triangles;
 }
 
-/// `skin` in m. Distances between its points are a few radii (m), and larger where that would take
-/// far more points than there are particles.
-DenseSkin dense_skin(Triangles skin, BoneWeights weights, double radius) {
-  constexpr double side = 4, max_squares = 5e4;  // in radii; of the skin's area
-  const double longest = std::max(side * radius, std::sqrt(area(skin) / max_squares));
+/// Faces that reach into a box.
+std::vector<std::array<int, 3>> faces_in(const Triangles& skin, const Box& box) {
+  std::vector<std::array<int, 3>> faces;
+  for (const auto& [a, b, c] : skin.faces) {
+    Box around(skin.points[a]);
+    if (box.intersects(around.extend(skin.points[b]).extend(skin.points[c])))
+      faces.push_back({a, b, c});
+  }
+  return faces;
+}
+
+/// Near the body (a box, m) points of `skin` (m) are a few radii apart at most. Elsewhere, as on a
+/// ground of kilometers, there are few: what is cut off from the body is not cut further.
+DenseSkin dense_skin(Triangles skin, BoneWeights weights, const Box& body, double radius) {
+  constexpr double apart = 4, shorter = 4;  // in radii; from one cut to the next
+  const Vec3 margin = Vec3::Constant(apart * radius);
+  const Box near(body.min() - margin, body.max() + margin);
   std::vector<std::array<int, 2>> ends;
-  DenseSkin dense{refined(std::move(skin), longest, &ends).points, std::move(weights)};
+  for (double side = longest_side(skin); side > apart * radius;) {
+    side = std::max(apart * radius, side / shorter);
+    skin.faces = faces_in(skin, near);
+    skin = refined(std::move(skin), side, &ends);
+  }
+  DenseSkin dense{std::move(skin.points), std::move(weights)};
   for (const std::array<int, 2>& two : ends) append_mean(two, dense.weights);
   return dense;
 }
@@ -81,7 +98,7 @@ BoneWeights weights_of_file(const Settings& settings, const SkinnedRig& rig, con
   const Placement placement = placement_of(settings.skeleton);
   PolygonSoup mesh = rig.mesh;
   for (Vec3& point : mesh.points) point = placement(point);
-  const DenseSkin skin = dense_skin(triangles_of(mesh), rig.weights, radius);
+  const DenseSkin skin = dense_skin(triangles_of(mesh), rig.weights, bounds(rest), radius);
   return carried_weights(skin.points, skin.weights, rest);
 }
 

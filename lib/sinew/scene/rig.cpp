@@ -34,16 +34,19 @@ const Clip& clip_of(const Rig& rig, const Settings& settings) {
   return rig.clips.front();
 }
 
+/// no_bone where there is none.
+int bone_of_name(const Skeleton& skeleton, const std::string& name) {
+  const auto found = std::find_if(skeleton.bones.begin(), skeleton.bones.end(),
+                                  [&](const Bone& bone) { return bone.name == name; });
+  return found == skeleton.bones.end() ? no_bone : static_cast<int>(found - skeleton.bones.begin());
+}
+
 /// The motion of one skeleton for the bones of another that have the same names.
 Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
   std::vector<Track> tracks;
   for (Track& track : motion.tracks) {
-    const auto found = std::find_if(to.bones.begin(), to.bones.end(), [&](const Bone& bone) {
-      return bone.name == from.bones[track.bone].name;
-    });
-    if (found == to.bones.end()) continue;
-    track.bone = static_cast<int>(found - to.bones.begin());
-    tracks.push_back(std::move(track));
+    track.bone = bone_of_name(to, from.bones[track.bone].name);
+    if (track.bone != no_bone) tracks.push_back(std::move(track));
   }
   if (tracks.empty() && !motion.tracks.empty()) {
     std::string cure("write them in motion.names, as sinew new MESH CLIP does; the clip has ");
@@ -52,6 +55,9 @@ Motion renamed(Motion motion, const Skeleton& from, const Skeleton& to) {
     throw bad_input("no bone of the clip has the name of a bone of the skeleton", cure);
   }
   motion.tracks = std::move(tracks);
+  for (IgnoredScale& one : motion.ignored_scales)
+    one.bone = bone_of_name(to, from.bones[one.bone].name);
+  std::erase_if(motion.ignored_scales, [](const IgnoredScale& one) { return one.bone == no_bone; });
   return motion;
 }
 

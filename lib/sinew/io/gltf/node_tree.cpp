@@ -207,7 +207,7 @@ class Binder {
     bound_.assign(pose_.joints.size(), false);
     for (std::size_t i = 0; i < used.size(); ++i)
       if (used[i]) bind(gltf, i);
-    place_nodes();
+    place_nodes(gltf);
     warn_of_scale();
   }
 
@@ -289,7 +289,7 @@ class Binder {
   }
 
   /// All nodes, parents first, and the bones among them that no skin binds.
-  void place_nodes() {
+  void place_nodes(const CheckedGltf& gltf) {
     pose_.nodes = global_;
     for (std::size_t i = 0; i < pose_.joints.size(); ++i)
       if (!bound_[i])
@@ -297,26 +297,19 @@ class Binder {
             below(joint(static_cast<int>(i)).parent, joint(static_cast<int>(i)).node));
     for (std::size_t node = 0; node < global_.size(); ++node)
       pose_.nodes[node] = below(pose_.holders[node], static_cast<int>(node));
-    if (!skinned_ && holds_meshes()) hold_the_rest();
+    if (!skinned_) hold_the_rest(gltf);
   }
 
-  /// Whether a bone holds any mesh. None does where joints of a skin without a mesh lie beside
-  /// meshes.
-  bool holds_meshes() const {
-    for (std::size_t node = 0; node < global_.size(); ++node)
-      if (document_.nodes[node].mesh >= 0 && pose_.holders[node] >= 0) return true;
-    return false;
-  }
-
-  /// Gives meshes that nothing moves to the last bone that nothing moves, if there is one.
-  void hold_the_rest() {
+  /// Gives meshes that nothing moves to the last topmost bone that nothing moves and that holds a
+  /// mesh, if there is one: joints of a skin without a mesh, beside meshes, hold none.
+  void hold_the_rest(const CheckedGltf& gltf) {
     const std::vector<bool> animated = moved_nodes(document_);
-    std::vector<bool> moved;
     int still = -1;
-    for (const GltfJoint& one : pose_.joints) {
-      moved.push_back(animated[static_cast<std::size_t>(one.node)] ||
-                      (one.parent >= 0 && moved[static_cast<std::size_t>(one.parent)]));
-      if (!moved.back()) still = static_cast<int>(moved.size()) - 1;
+    for (const int node : gltf.shown) {
+      const int holder = pose_.holders[static_cast<std::size_t>(node)];
+      if (document_.nodes[static_cast<std::size_t>(node)].mesh >= 0 && holder > still &&
+          joint(holder).parent < 0 && !animated[static_cast<std::size_t>(joint(holder).node)])
+        still = holder;
     }
     std::replace(pose_.holders.begin(), pose_.holders.end(), -1, still);
   }

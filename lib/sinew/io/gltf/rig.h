@@ -11,7 +11,7 @@
 // name that are equally long and move other nodes each are one. Keys are kept; where that is
 // impossible (scale, moving nodes between joints) the bone is sampled, as joint_motion.h says.
 // Bones are rigid: scale that changes over time moves the heads below it, but changes no size;
-// Motion::ignored_scale has it. Stretch is not used. Morph targets are ignored.
+// Motion::ignored_scales has it. Stretch is not used. Morph targets are ignored.
 #pragma once
 
 #include <filesystem>

@@ -141,6 +141,14 @@ void warn_of_idle_bones(const Body& body, Warnings& warnings) {
                      place_of_rig(body));
 }
 
+/// Scale of joints without flesh shows nowhere.
+void warn_of_scale(const Prepared& prepared, Warnings& warnings) {
+  std::vector<bool> pulling;
+  for (const double section : prepared.body.binding.cross_section) pulling.push_back(section > 0);
+  std::string warning = scale_warning(prepared.body.skeleton, prepared.motion, pulling);
+  if (!warning.empty()) warnings.push_back(std::move(warning));
+}
+
 /// Angles of 1.57 and the like, all of them small.
 void warn_of_radians(const Prepared& prepared, Warnings& warnings) {
   constexpr double twelfth = pi / 12, rounding = 0.005;  // rounding of numbers with two decimals
@@ -385,6 +393,7 @@ std::vector<std::string> warnings_of(const Prepared& prepared, double bone_speed
        motion_warnings(prepared.body.skeleton, prepared.motion,
                        min_shift * prepared.body.material.pair.r, prepared.beginning.posed))
     warnings.push_back(std::move(warning));
+  warn_of_scale(prepared, warnings);
   warn_of_groups(prepared.body.grouping.get(), warnings);
   warn_of_unit(prepared.body, warnings);
   warn_of_radians(prepared, warnings);

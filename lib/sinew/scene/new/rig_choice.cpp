@@ -112,7 +112,7 @@ int grade(const Clip& clip, const Skeleton& skeleton, const std::vector<bool>& f
   if (std::none_of(bones.turned.begin(), bones.turned.end(), moves_flesh))
     return std::any_of(bones.all.begin(), bones.all.end(), moves_flesh) ? 2 : !bones.all.empty();
   const bool walks = lower(clip.name).find("walk") != std::string::npos;
-  return 3 + !resizes(clip.motion) + 2 * walks;
+  return 3 + !largest_scale(clip.motion, flesh) + 2 * walks;
 }
 
 /// The first clip of the best grade; none where all clips are still poses.

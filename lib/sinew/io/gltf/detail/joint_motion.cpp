@@ -10,10 +10,10 @@
 namespace sinew {
 namespace {
 
-constexpr double scale_rounding = 1e-3;  // fraction of a scale
-constexpr double uneven_node = 1e-4;     // fraction of a node's scale; more is not rounding
-constexpr double max_places = 2e7;       // about 10 s
-constexpr double motionless = 1e-6;      // rad, and of the skeleton's size
+constexpr double unnoticed_scale = 0.05;  // exporters round, and breathing scales by less
+constexpr double uneven_node = 1e-4;      // fraction of a node's scale; more is not rounding
+constexpr double max_places = 2e7;        // about 10 s
+constexpr double motionless = 1e-6;       // rad, and of the skeleton's size
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -140,12 +140,8 @@ double scale_of(const GltfJoint& joint, const std::vector<Affine>& global) {
   return scales[0] * scales[2] > 1 ? scales[0] : scales[2];
 }
 
-void note_scale(const GltfBindPose& bind, const std::vector<Affine>& global, Motion& motion) {
-  const auto distance = [](double factor) { return std::abs(std::log(factor)); };
-  for (std::size_t i = 0; i < bind.joints.size(); ++i)
-    if (const double factor = scale_of(bind.joints[i], global);
-        distance(factor) > distance(motion.ignored_scale.factor) + scale_rounding)
-      motion.ignored_scale = {static_cast<int>(i), factor};
+void note_scale(double scale, IgnoredScale& noted) {
+  if (std::abs(std::log(scale)) > std::abs(std::log(noted.factor))) noted.factor = scale;
 }
 
 /// Adds samples at all keys and `rate` times a second, linear between, to the tracks of joints
@@ -158,9 +154,11 @@ void put_samples(const GltfBindPose& bind, const GltfTree& tree, const GltfNodeM
   for (const double time : sample_times(nodes, rate)) {
     for (const int node : tree.order) local[at(node)] = nodes.at(node, time);
     const std::vector<Affine> global = global_places(tree, local);
-    note_scale(bind, global, motion);
-    for (std::size_t i = 0; i < links.size(); ++i)
-      if (!links[i].exact) put_sample(bind, static_cast<int>(i), time, global, motion.tracks[i]);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (links[i].exact) continue;
+      put_sample(bind, static_cast<int>(i), time, global, motion.tracks[i]);
+      note_scale(scale_of(bind.joints[i], global), motion.ignored_scales[i]);
+    }
   }
 }
 
@@ -241,13 +239,15 @@ Motion joint_motion(const GltfBindPose& bind, const GltfTree& tree, const GltfNo
   Motion motion;
   std::vector<Track>& tracks = motion.tracks;
   tracks.resize(links.size());
-  note_scale(bind, global_places(tree, still_places(nodes)), motion);
+  const std::vector<Affine> still = global_places(tree, still_places(nodes));
   bool sampled = false;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const int index = static_cast<int>(i);
     tracks[i].bone = index;
+    motion.ignored_scales.push_back({index, 1});
     sampled = sampled || !links[i].exact;
     if (!links[i].exact) continue;
+    note_scale(scale_of(bind.joints[i], still), motion.ignored_scales.back());
     tracks[i].rotation = rotation_of(bind, index, links[i], nodes);
     tracks[i].translation = translation_of(bind, index, links[i], nodes, size);
   }
@@ -256,6 +256,8 @@ Motion joint_motion(const GltfBindPose& bind, const GltfTree& tree, const GltfNo
     if (!is_finite(tracks[i]))
       throw bad_input("it moves joint " + std::to_string(i) + " out of all finite places",
                       "export it again");
+  std::erase_if(motion.ignored_scales,
+                [](const IgnoredScale& one) { return std::abs(one.factor - 1) < unnoticed_scale; });
   std::erase_if(tracks, [](const Track& track) {
     return track.rotation.empty() && track.translation.empty();
   });
