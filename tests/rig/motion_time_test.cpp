@@ -288,6 +288,10 @@ TEST(MotionWarnings, TellOfLoopsThatDoNotCloseOfStepsAndOfLimits) {
   Settings still = step;
   for (KeyDefinition& key : still.tracks[0].keys) key.angle = 0;
   EXPECT_TRUE(warnings_of(still).empty()) << "steps between equal values";
+  Settings baked = step;
+  baked.tracks[0].keys.clear();
+  for (int k = 0; k < 100; ++k) baked.tracks[0].keys.push_back(bend_key(1 + 0.02 * k, 0.5 * k));
+  EXPECT_TRUE(warnings_of(baked).empty()) << "steps of half a degree, up to 50";
   limits.bones[1].limits.swing = 50;
   expect_warned(limits, {"'upper'", "swing by 30 degrees", "first at 2.5 s", "; "});
 }

@@ -78,6 +78,19 @@ TEST(BindScene, LimbsKeepTheirBonesFarFromTheirVertices) {
   }
 }
 
+/// The floor's area must not coarsen the leg, beside which is a hand.
+TEST(BindScene, LargeFloorLeavesALegItsBone) {
+  const Vec3 low(0, 0, 0), high(0.1, 0.1, 1);
+  const SceneFiles files =
+      skin({shapes::box(low, high), shapes::box({0.12, 0, 0.4}, {0.22, 0.1, 0.6}),
+            shapes::box({-1000, -1000, -1}, {1000, 1000, -0.035})},
+           [](std::size_t i, const Vec3&) { return i < 8 ? 0.0 : 1.0; });
+  const Points rest = grid_in(Box(low, high));
+  const Binding binding = bound(files, rest);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    EXPECT_EQ(rest[i].z() > 0.1 ? binding.bone(i) : 0, 0) << rest[i].transpose();
+}
+
 TEST(BindScene, WeightsAreLinearBetweenDistantVertices) {
   const SceneFiles files = skin({shapes::box({0, 0, 0}, {0.1, 0.1, 2})},
                                 [](std::size_t, const Vec3& point) { return point.z() / 2; });
